@@ -16,6 +16,7 @@
 #include <svt/drawing/sheet_set.hpp>
 #include <svt/drawing/sheet_views.hpp>
 #include <svt/drawing/stair_flights.hpp>
+#include <svt/writers/pdf_file.hpp>
 
 #include <array>
 #include <cstdint>
@@ -99,21 +100,15 @@ struct SheetOptions {
 /// first call.
 [[nodiscard]] const std::string& missingPdfLayers();
 
-/// The letters of a text that no font of this machine has, each once: a PDF has boxes instead. Loads fontconfig if the
-/// embedded font lacks a letter.
-[[nodiscard]] std::string lettersWithoutFont(std::string_view text);
-
 /// The sheets as one PDF, one page per sheet, with the layers of the SVG unless missingPdfLayers().
-/// \return the bytes, or the errors of makeSvgSheets(), NoCairo or CannotWrite
-[[nodiscard]] Result<std::string> makePdfSheets(const SheetContent& content, const volume::SemanticVolume& volume,
-                                                const SheetOptions& options = {});
+/// \return the file, or the errors of makeSvgSheets(), NoCairo or CannotWrite
+[[nodiscard]] Result<PdfFile> makePdfSheets(const SheetContent& content, const volume::SemanticVolume& volume,
+                                            const SheetOptions& options = {});
 
 /// Sheets in two formats.
 struct SheetFiles {
     std::vector<std::string> svg;  ///< one document per sheet
-    std::string pdf;               ///< empty unless it was requested
-    std::string missingLetters;    ///< letters that no font of the machine has: boxes in the PDF
-    bool hasRightToLeft = false;   ///< Arabic or Hebrew text, whose letters the PDF neither joins nor orders
+    PdfFile pdf;                   ///< without bytes unless it was requested
 };
 
 /// makeSvgSheets() and makePdfSheets() together, with the same bytes. Each sheet is painted once for both, so that the

@@ -17,6 +17,7 @@
 #include <svt/core/result.hpp>
 #include <svt/drawing/line_view.hpp>
 #include <svt/volume/semantic_volume.hpp>
+#include <svt/writers/pdf_file.hpp>
 
 #include <cstdint>
 #include <span>
@@ -27,11 +28,11 @@ namespace svt::writers {
 /// \param spaces   indices into LegalSpaces::spaces, one page each; none of them is SpaceBody::None
 /// \param view     the building from a parallel camera, the lines around the unit; null: no 3D view
 /// \param threads  0: all cores; the result does not depend on it
-/// \return the bytes; equal input gives equal bytes with one release of cairo. Errors: NothingSelected for a space
+/// \return the file; equal input gives equal bytes with one release of cairo. Errors: NothingSelected for a space
 ///         without geometry, NoCairo, CannotWrite, and those of drawSection() and measureFloorAreas()
-[[nodiscard]] Result<std::string> makeUnitReports(const analyze::LandAdministration& administration,
-                                                  std::span<const std::uint32_t> spaces,
-                                                  const volume::SemanticVolume& volume, const drawing::LineView* view,
-                                                  int threads = 0);
+[[nodiscard]] Result<PdfFile> makeUnitReports(const analyze::LandAdministration& administration,
+                                              std::span<const std::uint32_t> spaces,
+                                              const volume::SemanticVolume& volume, const drawing::LineView* view,
+                                              int threads = 0);
 
 }  // namespace svt::writers

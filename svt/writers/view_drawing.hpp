@@ -5,6 +5,7 @@
 
 #include <svt/core/result.hpp>
 #include <svt/drawing/line_view.hpp>
+#include <svt/writers/pdf_file.hpp>
 
 #include <string>
 
@@ -15,15 +16,15 @@ namespace svt::writers {
 [[nodiscard]] std::string makeViewSvg(const drawing::LineView& view, const volume::SemanticVolume& volume,
                                       double width);
 
-/// \return the bytes, or NoCairo or CannotWrite
-[[nodiscard]] Result<std::string> makeViewPdf(const drawing::LineView& view, const volume::SemanticVolume& volume,
-                                              double width);
+/// \return the file, or NoCairo or CannotWrite
+[[nodiscard]] Result<PdfFile> makeViewPdf(const drawing::LineView& view, const volume::SemanticVolume& volume,
+                                          double width);
 
 /// A section on the page of makeSvg(), with layers as in makePdfSheets().
 /// \param scale  100 draws 1 m as 10 mm; 0.01 to 10^7
-/// \return the bytes, or BadArgument: a scale out of range, or a page larger than the 5.08 m that PDF allows; NoCairo
+/// \return the file, or BadArgument: a scale out of range, or a page larger than the 5.08 m that PDF allows; NoCairo
 ///         or CannotWrite
-[[nodiscard]] Result<std::string> makeSectionPdf(const drawing::SectionDrawing& drawing,
-                                                 const volume::SemanticVolume& volume, double scale);
+[[nodiscard]] Result<PdfFile> makeSectionPdf(const drawing::SectionDrawing& drawing,
+                                             const volume::SemanticVolume& volume, double scale);
 
 }  // namespace svt::writers

@@ -83,8 +83,9 @@ Result<std::string> makeReports(const CadastreArguments& arguments, const LandAd
         SVT_TRY(drawn, drawBuilding(volume, arguments.build.threads));
         view = std::move(*drawn);
     }
-    noteMissingLetters(volume.labels);
-    return writers::makeUnitReports(all, *spaces, volume, view ? &*view : nullptr, arguments.build.threads);
+    SVT_TRY(pdf, writers::makeUnitReports(all, *spaces, volume, view ? &*view : nullptr, arguments.build.threads));
+    notePdf(*pdf);
+    return std::move(pdf->bytes);
 }
 
 Result<std::string> makeOutput(const std::string& ending, const CadastreArguments& arguments,

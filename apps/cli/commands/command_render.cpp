@@ -250,9 +250,8 @@ Result<void> writeLineView(const RenderArguments& arguments, const drawing::Line
         return {};
     }
     SVT_TRY(pdf, writers::makeViewPdf(view, volume, width));
-    if (number == 0 && !writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
-    if (number == 0) noteMissingLetters(writers::lettersWithoutFont(volume.modelName));  // of the title
-    SVT_DO(writeFileAtomically(path, *pdf));
+    if (number == 0) notePdf(*pdf);
+    SVT_DO(writeFileAtomically(path, pdf->bytes));
     return {};
 }
 

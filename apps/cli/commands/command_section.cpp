@@ -10,12 +10,14 @@
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/city/city_walk.hpp>
+#include <svt/core/file.hpp>
 #include <svt/drawing/building_levels.hpp>
 #include <svt/drawing/external_parts.hpp>
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/writers/drawing_formats.hpp>
 #include <svt/writers/section_table.hpp>
 #include <svt/writers/sheet_writer.hpp>
+#include <svt/writers/view_drawing.hpp>
 
 #include <fmt/format.h>
 
@@ -79,11 +81,14 @@ Result<int> writeSection(const SectionArguments& arguments, const drawing::Secti
                                  arguments.plane.empty() ? "1.1 m above the ground floor" : arguments.plane));
     for (const auto& paths : {arguments.outputs, arguments.tables})
         for (const std::filesystem::path& path : paths) {
+            if (endingOf(path) == ".pdf") {
+                SVT_TRY(pdf, writers::makeSectionPdf(drawing, volume, scale));
+                notePdf(*pdf);
+                SVT_DO(writeFileAtomically(path, pdf->bytes));
+                continue;
+            }
             SVT_DO(writers::writeDrawing(drawing, volume, path, {scale, arguments.dxf}));
             if (endingOf(path) == ".dxf" && arguments.dxf.isoLayers) noteExternals(volume);
-            if (endingOf(path) != ".pdf") continue;
-            if (!writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
-            noteMissingLetters(volume.labels);
         }
     TerminalProgress::hide();
     if (arguments.json) fmt::print(resultStream(), "{}", writers::makeSectionJson(drawing, volume, uses));

@@ -166,15 +166,6 @@ void notePartsAway(const volume::SemanticVolume& volume) {
                          firstNames(names)));
 }
 
-// Viewers of SVG have other fonts, and join and order the letters themselves.
-void noteLetters(const writers::SheetFiles& files) {
-    noteMissingLetters(files.missingLetters);
-    if (files.hasRightToLeft)
-        note(
-            "the PDF has Arabic or Hebrew text from left to right, without joined letters; the sheets of --svg have it "
-            "in its order");
-}
-
 // A scale without a paper selects the paper.
 Result<void> selectPaper(const drawing::SheetSet& set, const writers::SheetContent& content,
                          const volume::SemanticVolume& volume, writers::SheetOptions& options) {
@@ -269,9 +260,8 @@ Result<int> runSheets(const SheetsArguments& arguments) {
     const bool isPdf = !arguments.output.empty() && endingOf(arguments.output) != ".gpkg";
     SVT_TRY(files, writers::makeSheetFiles(*content, *volume, options, isPdf, threads));
     if (isPdf) {
-        if (!writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
-        noteLetters(*files);
-        SVT_DO(writeFileAtomically(arguments.output, files->pdf));
+        notePdf(files->pdf);
+        SVT_DO(writeFileAtomically(arguments.output, files->pdf.bytes));
     } else if (!arguments.output.empty()) {
         SVT_TRY(bytes, writers::makeSheetGeoPackage(*content, *volume));
         SVT_DO(writeFileAtomically(arguments.output, *bytes));

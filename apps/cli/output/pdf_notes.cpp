@@ -8,19 +8,19 @@
 
 namespace svt::cli {
 
-void noteMissingLetters(const std::string& letters) {
-    if (letters.empty()) return;
-    note(
-        fmt::format("no font on this machine has the letters '{}'; the PDF has boxes in their place. Install a font "
-                    "that has them (Debian: fonts-noto-cjk for Chinese, Japanese and Korean, fonts-noto-core for "
-                    "other scripts), or write SVG",
-                    letters));
-}
-
-void noteMissingLetters(const volume::LabelTable& table) {
-    std::string names;
-    for (const volume::Label& label : table.labels) names += label.name;
-    noteMissingLetters(writers::lettersWithoutFont(names));
+void notePdf(const writers::PdfFile& pdf) {
+    if (!writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
+    if (!pdf.missingLetters.empty())
+        note(
+            fmt::format("no font on this machine has the letters '{}'; the PDF has boxes in their place. Install a "
+                        "font that has them (Debian: fonts-noto-cjk for Chinese, Japanese and Korean, "
+                        "fonts-noto-core for other scripts), or write SVG where the command can",
+                        pdf.missingLetters));
+    if (pdf.hasRightToLeft)
+        note(
+            "the PDF has Arabic or Hebrew text from left to right, without joined letters; viewers of SVG show it in "
+            "its "
+            "order, so write SVG where the command can");
 }
 
 }  // namespace svt::cli

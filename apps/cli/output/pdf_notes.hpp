@@ -1,17 +1,13 @@
 #pragma once
 /// \file
-/// Notes on PDF: letters without a font.
+/// Notes on a PDF that the command writes.
 
-#include <svt/volume/label_table.hpp>
-
-#include <string>
+#include <svt/writers/pdf_file.hpp>
 
 namespace svt::cli {
 
-/// Prints a note on letters that are boxes in a PDF, with a remedy; nothing without letters.
-void noteMissingLetters(const std::string& letters);
-
-/// The same for the letters of all names, if no font of the machine has them.
-void noteMissingLetters(const volume::LabelTable& table);
+/// Prints a note for each thing that the PDF cannot show: layers, letters without a font, and Arabic or Hebrew text in its
+/// order. Each has a remedy.
+void notePdf(const writers::PdfFile& pdf);
 
 }  // namespace svt::cli

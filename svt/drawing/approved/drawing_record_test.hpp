@@ -6,13 +6,10 @@
 #include <svt/samples/approved_test.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
-#include <svt/record/record.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -147,25 +144,5 @@ private:
     const volume::SemanticVolume& volume_;
     std::string text_;
 };
-
-/// The members of a struct of options: names, ranges, and the places where a user can set them.
-template <class T>
-std::string ofOptions() {
-    std::string text;
-    const auto add = [&](const Option& option) {
-        text += fmt::format("{} {} {} {} to {} count {} to {} group '{}' {}{}{}{}{}\n", option.name, option.option,
-                            int(option.kind), option.least, option.most, option.leastCount, option.count, option.group,
-                            int(option.isRequired), int(option.mayRepeat), int(option.isForModels),
-                            int(option.isForProjects), int(option.isReadAgain));
-    };
-    for (const svt::record::Member<T>& member : svt::record::membersOf<T>()) {
-        add(member.option);
-        std::deque<std::string> texts;
-        std::vector<Option> nested;
-        if (member.list != nullptr) member.list("", texts, nested);
-        for (const Option& option : nested) add(option);
-    }
-    return text;
-}
 
 }  // namespace svt::drawing::approved

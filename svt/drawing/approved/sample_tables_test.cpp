@@ -15,6 +15,7 @@
 #include <svt/drawing/stair_flights.hpp>
 #include <svt/drawing/storey_floors.hpp>
 #include <svt/pipeline/sample_models_test.hpp>
+#include <svt/record/options_text_test.hpp>
 #include <svt/samples/approved_test.hpp>
 
 #include <gtest/gtest.h>
@@ -156,7 +157,7 @@ void expectTables(const std::string& name, const SemanticVolume& volume, bool is
 }
 
 TEST(ApprovedTables, OfOptions) {
-    std::string text = approved::ofOptions<SectionOptions>();
+    std::string text = record::optionsText<SectionOptions>();
     for (const Option& option : sheetMembers())
         text += fmt::format("{} {} {} to {} {}{}{}\n", option.name, int(option.kind), option.least, option.most,
                             int(option.isRequired), int(option.mayRepeat), int(option.isForProjects));

@@ -85,8 +85,8 @@ std::vector<std::uint32_t> labelsAt(const SectionDrawing& drawing, PlanePoint p)
     return found;
 }
 
-/// The rules for every drawing: orientation, sums, and each edge of a ring is an edge of just one neighbor, turned
-/// round, or none.
+/// The rules for every drawing: rings have the right orientation, and areas have the right sums. Each edge of a ring
+/// belongs to at most one neighbour, in the opposite direction.
 /// \param walls  labels that join without a border, see joinWalls()
 void expectSound(const SectionDrawing& drawing, const std::set<std::uint32_t>& walls = {}) {
     const PlaneAxes& axes = drawing.axes;

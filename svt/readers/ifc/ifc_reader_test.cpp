@@ -371,6 +371,14 @@ TEST(IfcReader, PlacementsThatCannotBeReadAreTold) {
     }
 }
 
+void expectWallOnTheMap(const model::BuildingModel& model, double height) {
+    EXPECT_EQ(model.crs.epsg, 25832);
+    const Box3d box = bounds(model, *find(model, "wall"));
+    EXPECT_NEAR(box.min.x, 457850 - 0.15, 1e-8);
+    EXPECT_NEAR(box.max.y, 5439000 + 0.1, 1e-8);
+    EXPECT_NEAR(box.max.z, height + 1, 1e-9);
+}
+
 TEST(IfcReader, MapConversionMovesToTheMap) {
     const auto model = readText(ifcFile(std::string("#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n"
                                                     "#50=IFCMAPCONVERSION(#20,#51,457850.,5439000.,110.,0.,1.,1.);\n"
@@ -379,11 +387,7 @@ TEST(IfcReader, MapConversionMovesToTheMap) {
                                             kBox,
                                         "#100"));
     ASSERT_TRUE(model) << model.error().message();
-    EXPECT_EQ(model->crs.epsg, 25832);
-    const Box3d box = bounds(*model, *find(*model, "wall"));
-    EXPECT_NEAR(box.min.x, 457850 - 0.15, 1e-8);
-    EXPECT_NEAR(box.max.y, 5439000 + 0.1, 1e-8);
-    EXPECT_NEAR(box.max.z, 111, 1e-9);
+    expectWallOnTheMap(*model, 110);
     EXPECT_EQ(attribute(*find(*model, "0site"), "elevation"), "0.1 m");
     EXPECT_EQ(attribute(*find(*model, "0site"), "latitude").substr(0, 8), "49.09972");
 }
@@ -429,13 +433,21 @@ TEST(IfcReader, PropertySetsMoveToTheMap) {
         Diagnostics log;
         const auto model = readText(text, &log);
         ASSERT_TRUE(model) << model.error().message();
-        EXPECT_EQ(model->crs.epsg, 25832);
-        const Box3d box = bounds(*model, *find(*model, "wall"));
-        EXPECT_NEAR(box.min.x, 457850 - 0.15, 1e-8);
-        EXPECT_NEAR(box.max.y, 5439000 + 0.1, 1e-8);
-        EXPECT_NEAR(box.max.z, 111, 1e-9);
+        expectWallOnTheMap(*model, 110);
         EXPECT_EQ(std::ranges::count(log.items(), Code::BadValue, &Diagnostic::code), 0);
     }
+}
+
+TEST(IfcReader, PropertySetsWithoutAHeightSayWhatIsAssumed) {
+    auto flat = kMapSet;
+    flat.erase(flat.begin() + 2);
+    Diagnostics log;
+    const auto model = readText(ifcWithMapSets(flat, kCrsSet), &log);
+    ASSERT_TRUE(model) << model.error().message();
+    expectWallOnTheMap(*model, 0);
+    const auto found = std::ranges::find(log.items(), Code::BadValue, &Diagnostic::code);
+    ASSERT_NE(found, log.items().end());
+    EXPECT_NE(found->message.find("OrthogonalHeight; 0 is assumed"), std::string::npos) << found->message;
 }
 
 TEST(IfcReader, PropertySetsThatContradictAreAFinding) {

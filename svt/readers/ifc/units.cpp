@@ -206,8 +206,10 @@ MapPlace readMapSets(const IfcFile& file, const Place& place, Diagnostics& diagn
         const auto number = [&](string_view name, double otherwise) {
             return conversion.value(set, name).number().value_or(otherwise);
         };
+        const auto height = conversion.length(set, "OrthogonalHeight", mapUnit);
+        if (!height) warn("ePSet_MapConversion lacks a number for OrthogonalHeight; 0 is assumed");
         found.isGiven = true;
-        found.mapFromProject.origin = {*east, *north, conversion.length(set, "OrthogonalHeight", mapUnit).value_or(0)};
+        found.mapFromProject.origin = {*east, *north, height.value_or(0)};
         setAxes({number("XAxisAbscissa", 1), number("XAxisOrdinate", 0), 0}, number("Scale", 1),
                 mapUnit.value_or(file.lengthUnit) / file.lengthUnit, found.mapFromProject);
         if (!first.isGiven)

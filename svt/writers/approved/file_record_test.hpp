@@ -8,14 +8,11 @@
 #include <svt/image/png.hpp>
 #include <svt/samples/approved_test.hpp>
 
-#include <svt/record/record.hpp>
-
 #include <fmt/format.h>
 #include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
-#include <deque>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -120,31 +117,11 @@ inline std::string ofFile(const std::filesystem::path& path, const std::string& 
     }
     if (!name.ends_with(".png")) return ofBytes(name, test::readText(path));
     const auto picture = image::readPng(path);
-    if (!picture) return name + " is no picture\n";
+    if (!picture) return name + ": not a PNG\n";
     const std::string_view pixels(reinterpret_cast<const char*>(picture->pixels().data()),
                                   picture->pixels().size() * sizeof(picture->pixels()[0]));
     return fmt::format("{}: {} x {} pixels {:016x}\n", name, picture->width(), picture->height(),
                        test::digestOf(pixels));
-}
-
-/// The members of a struct of options: names, ranges, and the places where a user can set them.
-template <class T>
-std::string ofOptions() {
-    std::string text;
-    const auto add = [&](const Option& option) {
-        text += fmt::format("{} {} {} {} to {} count {} to {} group '{}' {}{}{}{}{}\n", option.name, option.option,
-                            int(option.kind), option.least, option.most, option.leastCount, option.count, option.group,
-                            int(option.isRequired), int(option.mayRepeat), int(option.isForModels),
-                            int(option.isForProjects), int(option.isReadAgain));
-    };
-    for (const svt::record::Member<T>& member : svt::record::membersOf<T>()) {
-        add(member.option);
-        std::deque<std::string> texts;
-        std::vector<Option> nested;
-        if (member.list != nullptr) member.list("", texts, nested);
-        for (const Option& option : nested) add(option);
-    }
-    return text;
 }
 
 }  // namespace svt::writers::approved

@@ -8,6 +8,7 @@
 #include <svt/drawing/line_view.hpp>
 #include <svt/drawing/sheet_views.hpp>
 #include <svt/pipeline/sample_models_test.hpp>
+#include <svt/record/options_text_test.hpp>
 #include <svt/samples/approved_test.hpp>
 #include <svt/volume/sample_volume_test.hpp>
 #include <svt/writers/approved/file_record_test.hpp>
@@ -36,6 +37,9 @@ using volume::SemanticVolume;
 
 std::string ofResult(const std::string& name, const Result<std::string>& made) {
     return made ? approved::ofBytes(name, *made) : name + ": " + std::string(made.error().message()) + '\n';
+}
+std::string ofResult(const std::string& name, const Result<PdfFile>& made) {
+    return made ? ofResult(name, Result<std::string>(made->bytes)) : ofResult(name, Result<std::string>(made.error()));
 }
 
 const SemanticVolume& drawnHouse() {
@@ -80,10 +84,10 @@ TEST(ApprovedDocuments, DrawingsInAllFormats) {
 
 TEST(ApprovedDocuments, Options) {
     test::expectApproved("writers/options",
-                         approved::ofOptions<VolumeWriteOptions>() + approved::ofOptions<CityGmlWriteOptions>() +
-                             approved::ofOptions<ZarrWriteOptions>() + approved::ofOptions<PrecomputedWriteOptions>() +
-                             approved::ofOptions<TilesetWriteOptions>() + approved::ofOptions<VdbWriteOptions>() +
-                             approved::ofOptions<BoxWriteOptions>() + approved::ofOptions<DxfOptions>());
+                         record::optionsText<VolumeWriteOptions>() + record::optionsText<CityGmlWriteOptions>() +
+                             record::optionsText<ZarrWriteOptions>() + record::optionsText<PrecomputedWriteOptions>() +
+                             record::optionsText<TilesetWriteOptions>() + record::optionsText<VdbWriteOptions>() +
+                             record::optionsText<BoxWriteOptions>() + record::optionsText<DxfOptions>());
 }
 
 TEST(ApprovedDocuments, DimensionsInAllUnits) {

@@ -12,6 +12,4 @@ const std::string& missingPdfLayers() {
     return text;
 }
 
-std::string lettersWithoutFont(std::string_view /*text*/) { return {}; }
-
 }  // namespace svt::writers

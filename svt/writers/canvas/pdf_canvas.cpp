@@ -155,30 +155,6 @@ FT_Face embeddedFace() {
     return face;
 }
 
-// Whether the embedded font has a letter. It has its own face, because faces that look up letters are not thread-safe.
-class EmbeddedLetters {
-public:
-    EmbeddedLetters() {
-        const auto font = image::embeddedFont();
-        if (FT_Init_FreeType(&library_) != 0 ||
-            FT_New_Memory_Face(library_, reinterpret_cast<const FT_Byte*>(font.data()),
-                               static_cast<FT_Long>(font.size()), 0, &face_) != 0)
-            face_ = nullptr;
-    }
-    ~EmbeddedLetters() {
-        if (library_ != nullptr) FT_Done_FreeType(library_);
-    }
-    EmbeddedLetters(const EmbeddedLetters&) = delete;
-    EmbeddedLetters& operator=(const EmbeddedLetters&) = delete;
-    [[nodiscard]] bool has(char32_t letter) const {
-        return letter < 0x80 || face_ == nullptr || FT_Get_Char_Index(face_, letter) != 0;
-    }
-
-private:
-    FT_Library library_ = nullptr;
-    FT_Face face_ = nullptr;
-};
-
 class CairoCanvas : public PdfCanvas {
 public:
     CairoCanvas(const Cairo& cairo, const std::string& title, const std::string& language)
@@ -287,10 +263,7 @@ public:
         cairo_.new_path(context_);
     }
 
-    [[nodiscard]] const std::string& missingLetters() const noexcept override { return missing_; }
-    [[nodiscard]] bool hasRightToLeft() const noexcept override { return hasRightToLeft_; }
-
-    Result<std::string> finish() override {
+    Result<PdfFile> finish() override {
         const cairo_status_t drawn = cairo_.status(context_);
         cairo_.surface_finish(surface_);
         const cairo_status_t written = cairo_.surface_status(surface_);
@@ -299,7 +272,12 @@ public:
             return Error(Code::CannotWrite,
                          fmt::format("cairo cannot make the PDF: {}",
                                      font_ == nullptr ? "the font cannot be read" : cairo_.status_to_string(status)));
-        return hasLayers_ ? joinPdfLayers(bytes_, parts_) : std::move(bytes_);
+        file_.bytes = std::move(bytes_);
+        if (hasLayers_) {
+            SVT_TRY(joined, joinPdfLayers(file_.bytes, parts_));
+            file_.bytes = std::move(*joined);
+        }
+        return std::move(file_);
     }
 
 private:
@@ -322,17 +300,20 @@ private:
         return runs;
     }
     cairo_font_face_t* fontOf(char32_t letter, std::string_view bytes) {
-        hasRightToLeft_ = hasRightToLeft_ || (letter >= 0x0590 && letter <= 0x08FF) ||
-                          (letter >= 0xFB1D && letter <= 0xFDFF) || (letter >= 0xFE70 && letter <= 0xFEFC);
-        if (embedded_.has(letter)) return font_;
+        if (letter < 0x80) return font_;
+        const auto [known, isNew] = fontOfLetter_.try_emplace(letter, font_);
+        if (!isNew) return known->second;
+        file_.hasRightToLeft = file_.hasRightToLeft || (letter >= 0x0590 && letter <= 0x08FF) ||
+                               (letter >= 0xFB1D && letter <= 0xFDFF) || (letter >= 0xFE70 && letter <= 0xFEFC);
+        if (image::missingLetters(bytes).empty()) return font_;
         FT_Face face = systemFonts_.faceOf(letter);
         if (face == nullptr) {
-            if (missing_.find(bytes) == std::string::npos) missing_ += bytes;
+            file_.missingLetters += bytes;
             return font_;
         }
         cairo_font_face_t*& font = fonts_[face];
         if (font == nullptr) font = cairo_.ft_font_face_create_for_ft_face(face, FT_LOAD_NO_HINTING);
-        return font;
+        return known->second = font;
     }
 
     // Pages of cairo are parts of a sheet if there are layers, otherwise sheets. The first drawing operation begins a
@@ -406,11 +387,10 @@ private:
     cairo_surface_t* surface_ = nullptr;
     cairo_t* context_ = nullptr;
     cairo_font_face_t* font_ = nullptr;
-    EmbeddedLetters embedded_;
     SystemFonts systemFonts_;
     std::map<FT_Face, cairo_font_face_t*> fonts_;  // of the machine
-    std::string missing_;
-    bool hasRightToLeft_ = false;
+    std::map<char32_t, cairo_font_face_t*> fontOfLetter_;
+    PdfFile file_;
     std::map<render::Hatch, cairo_pattern_t*> patterns_;
     const bool hasLayers_ = missingPdfLayers().empty();
     std::vector<PdfPart> parts_;  // by page of cairo

@@ -5,6 +5,7 @@
 #include <svt/core/result.hpp>
 #include <svt/volume/label_table.hpp>
 #include <svt/writers/canvas/sheet_canvas.hpp>
+#include <svt/writers/pdf_file.hpp>
 
 #include <memory>
 
@@ -14,14 +15,10 @@ namespace svt::writers {
 /// those of fonts of the machine. All are embedded as subsets.
 class PdfCanvas : public SheetCanvas {
 public:
-    /// The bytes of the file; drawing is not possible afterwards. Equal sheets give equal bytes with one release of
-    /// cairo and the same fonts.
-    /// \return the bytes, or CannotWrite with the message of cairo
-    [[nodiscard]] virtual Result<std::string> finish() = 0;
-    /// The letters so far that no font has, each once; they are drawn as boxes.
-    [[nodiscard]] virtual const std::string& missingLetters() const noexcept = 0;
-    /// Whether a text so far has Arabic or Hebrew letters, which are neither joined nor ordered.
-    [[nodiscard]] virtual bool hasRightToLeft() const noexcept = 0;
+    /// The file; drawing is not possible afterwards. Equal sheets give equal bytes with one release of cairo and the same
+    /// fonts.
+    /// \return the file, or CannotWrite with the message of cairo
+    [[nodiscard]] virtual Result<PdfFile> finish() = 0;
 };
 
 /// \param title   title of the document, for its properties

@@ -10,7 +10,7 @@
 
 namespace svt::writers {
 
-/// Records the calls of a canvas. Memory: that of the paths and texts.
+/// Records the calls of a canvas. It keeps a copy of all paths and texts in memory.
 class RecordedSheet : public SheetCanvas {
 public:
     void beginSheet(double width, double height, const std::string& title) override;

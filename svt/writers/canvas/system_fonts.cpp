@@ -2,8 +2,6 @@
 
 #include <svt/core/machine.hpp>
 #include <svt/core/text.hpp>
-#include <svt/image/text.hpp>
-#include <svt/writers/sheet_writer.hpp>
 
 #include <fontconfig/fontconfig.h>
 
@@ -93,18 +91,6 @@ std::string languageOfNames(const volume::LabelTable& table) {
             hasHangul = hasHangul || isHangul(letter.code);
         }
     return hasHangul ? "ko" : "zh-cn";
-}
-
-std::string lettersWithoutFont(std::string_view text) {
-    const std::string candidates = image::missingLetters(text);  // each once
-    SystemFonts fonts("zh-cn");                                  // the language only orders the fonts
-    std::string missing;
-    for (std::string_view rest = candidates; !rest.empty();) {
-        const Utf8Character letter = firstCharacter(rest);
-        if (fonts.faceOf(letter.code) == nullptr) missing += rest.substr(0, letter.size);
-        rest.remove_prefix(letter.size);
-    }
-    return missing;
 }
 
 struct SystemFonts::Fonts {

@@ -25,8 +25,11 @@ Result<std::string> makeDrawing(const drawing::SectionDrawing& drawing, const vo
 Result<std::uint64_t> writeDrawing(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                    const std::filesystem::path& path, const DrawingOptions& options) {
     const std::string ending = lowerAscii(path.extension().string());
-    SVT_TRY(text, ending == ".pdf" ? makeSectionPdf(drawing, volume, options.scale)
-                                   : makeDrawing(drawing, volume, ending.substr(ending.empty() ? 0 : 1), options));
+    if (ending == ".pdf") {
+        SVT_TRY(pdf, makeSectionPdf(drawing, volume, options.scale));
+        return writeFileAtomically(path, pdf->bytes);
+    }
+    SVT_TRY(text, makeDrawing(drawing, volume, ending.substr(ending.empty() ? 0 : 1), options));
     return writeFileAtomically(path, *text);
 }
 

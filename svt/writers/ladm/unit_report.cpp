@@ -248,8 +248,8 @@ private:
 
 }  // namespace
 
-Result<std::string> makeUnitReports(const LandAdministration& administration, std::span<const std::uint32_t> spaces,
-                                    const volume::SemanticVolume& volume, const drawing::LineView* view, int threads) {
+Result<PdfFile> makeUnitReports(const LandAdministration& administration, std::span<const std::uint32_t> spaces,
+                                const volume::SemanticVolume& volume, const drawing::LineView* view, int threads) {
     const auto levels = drawing::findLevels(volume);
     SVT_TRY(areas, drawing::measureFloorAreas(volume, levels, threads));
     SVT_TRY(canvas, makePdfCanvas(volume.modelName.empty() ? volume.source : volume.modelName, &volume.labels));

@@ -54,7 +54,7 @@ struct ViewMarks {
 
 /// The list of rooms without a stamp beside a caption.
 struct StampList {
-    std::vector<std::string> lines;  ///< empty: there are no such rooms
+    std::vector<std::string> lines;  ///< empty if each room has its stamp
     bool needsTable = false;         ///< the rooms do not fit: the line refers to stampTable()
 };
 /// \param width  of the free place beside the caption, millimetres

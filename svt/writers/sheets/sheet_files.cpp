@@ -46,16 +46,14 @@ Result<SheetFiles> makeSheetFiles(const SheetContent& content, const volume::Sem
     }
     drawPdf();
     if (pdf) {
-        files.missingLetters = pdf->missingLetters();
-        files.hasRightToLeft = pdf->hasRightToLeft();
-        SVT_TRY(bytes, pdf->finish());
-        files.pdf = std::move(*bytes);
+        SVT_TRY(file, pdf->finish());
+        files.pdf = std::move(*file);
     }
     return files;
 }
 
-Result<std::string> makePdfSheets(const SheetContent& content, const volume::SemanticVolume& volume,
-                                  const SheetOptions& options) {
+Result<PdfFile> makePdfSheets(const SheetContent& content, const volume::SemanticVolume& volume,
+                              const SheetOptions& options) {
     SVT_TRY(sheets, PreparedSheets::make(content, volume, options));
     SVT_TRY(canvas, makePdfCanvas(shownName(volume), &volume.labels));
     for (std::size_t n = 0; n < sheets->size(); ++n) sheets->paint(n, **canvas);

@@ -335,8 +335,8 @@ TEST(PdfSheets, HaveAPageEachAndTheSameBytes) {
     content.views.push_back(wallView(ViewKind::Section, "A", 4, 3));
     const auto pdf = makePdfSheets(content, volume, {.scale = 50, .paper = "A4"});
     ASSERT_TRUE(pdf);
-    EXPECT_TRUE(pdf->starts_with("%PDF-"));
-    EXPECT_EQ(*pdf, *makePdfSheets(content, volume, {.scale = 50, .paper = "A4"}));
+    EXPECT_TRUE(pdf->bytes.starts_with("%PDF-"));
+    EXPECT_EQ(pdf->bytes, makePdfSheets(content, volume, {.scale = 50, .paper = "A4"})->bytes);
 }
 
 // More sheets than a batch of one thread, each painted once for both formats.
@@ -358,9 +358,9 @@ TEST(SheetFiles, AreThoseOfEachFormat) {
         const auto files = makeSheetFiles(content, volume, options, true, threads);
         ASSERT_TRUE(files);
         EXPECT_EQ(files->svg, *svg) << threads;
-        EXPECT_EQ(files->pdf, *pdf) << threads;
+        EXPECT_EQ(files->pdf.bytes, pdf->bytes) << threads;
     }
-    EXPECT_EQ(makeSheetFiles(content, volume, options, false)->pdf, "");
+    EXPECT_EQ(makeSheetFiles(content, volume, options, false)->pdf.bytes, "");
     EXPECT_FALSE(makeSheetFiles(content, volume, {.scale = 1, .paper = "A4"}, true));
 }
 

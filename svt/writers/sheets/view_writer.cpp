@@ -41,8 +41,8 @@ void addTitle(const drawing::SectionDrawing& drawing, const volume::SemanticVolu
 
 }  // namespace
 
-Result<std::string> makeSectionPdf(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                                   double scale) {
+Result<PdfFile> makeSectionPdf(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                               double scale) {
     constexpr double kLongest = 5080;  // 14,400 points: ISO 32000-1, annex C
     SVT_TRY(page, makeDrawingPage(drawing, scale));
     if (page->width > kLongest || page->height > kLongest)
@@ -66,7 +66,7 @@ std::string makeViewSvg(const drawing::LineView& view, const volume::SemanticVol
     return canvas.takeDocuments().front();
 }
 
-Result<std::string> makeViewPdf(const drawing::LineView& view, const volume::SemanticVolume& volume, double width) {
+Result<PdfFile> makeViewPdf(const drawing::LineView& view, const volume::SemanticVolume& volume, double width) {
     SVT_TRY(canvas, makePdfCanvas(shownName(volume), &volume.labels));
     paintView(view, volume, width, **canvas);
     return (*canvas)->finish();

@@ -77,5 +77,19 @@ TEST(SheetFonts, LettersOfNoFontAreNamedWithARemedy) {
     EXPECT_NE(section.find("no font on this machine has the letters '\u5BDD\u5BA4'"), std::string::npos) << section;
 }
 
+// The name of an owner is in no name of the model.
+TEST(SheetFonts, LettersOfOwnersWithoutFontAreNamed) {
+    const TemporaryFolder folder;
+    runShellWell(folder.path(), "'" + commandPath() + "' sample tower --storeys 1 -o tower.gml");
+    writeText(folder / "owners.csv", "class=BuildingUnit,\u5BDD\u5BA4\n");
+    writeFonts(folder.path(), false);
+    const ShellResult reported =
+        runShell(folder.path(), "FONTCONFIG_FILE=" + (folder / "fonts.conf").string() + " '" + commandPath() +
+                                    "' cadastre tower.gml --spacing 0.25 --owners owners.csv -o units.pdf");
+    ASSERT_EQ(reported.exitCode, 0) << reported.text;
+    EXPECT_NE(reported.text.find("no font on this machine has the letters '\u5BDD\u5BA4'"), std::string::npos)
+        << reported.text;
+}
+
 }  // namespace
 }  // namespace svt::test

@@ -46,7 +46,7 @@ describe("groups", () => {
     const queries = hideQueries(house, flags, [], undefined, ['under "flat"']);
     expect(queries).toEqual(['under "flat"']);
     expect(hiddenFlags(house, queries)).toEqual(flags);
-    // As soon as a member is visible, the query is no longer right.
+    // The query must go when a member of the flat becomes visible.
     const without = hideQueries(house, flagsOf("flat", "room", "bed"), queries);
     expect(hiddenFlags(house, without)).toEqual(flagsOf("flat", "room", "bed"));
     expect(without).not.toContain('under "flat"');

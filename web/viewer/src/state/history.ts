@@ -54,7 +54,7 @@ export class History extends Observable {
 
   /**
    * Drops the last step that led to a view that cannot be drawn.
-   * @return the values before it; empty: there is no such step
+   * @return the values before that step; an empty object if no step matches
    */
   refuse(state: ViewState): Partial<ViewState> {
     for (let n = this.done.length - 1; n >= 0; --n) {

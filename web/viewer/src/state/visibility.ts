@@ -43,8 +43,8 @@ export function hiddenFlags(index: FeatureIndex, queries: readonly string[], ans
 }
 
 /**
- * Few queries that hide all flagged features with voxels. Queries of the user stay, unless a feature of theirs is no longer
- * flagged.
+ * A short list of queries that hides exactly the flagged features with voxels. A query of the user stays while all features
+ * that it selects are flagged, or while these features are unknown.
  * @param offered  queries that the flagged features may come from
  */
 export function hideQueries(

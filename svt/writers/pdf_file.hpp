@@ -1,0 +1,15 @@
+#pragma once
+/// \file
+/// A PDF in memory, and what it cannot show.
+
+#include <string>
+
+namespace svt::writers {
+
+struct PdfFile {
+    std::string bytes;
+    std::string missingLetters;   ///< letters that no font of the machine has, each once; they are drawn as boxes
+    bool hasRightToLeft = false;  ///< Arabic or Hebrew text, whose letters are neither joined nor ordered
+};
+
+}  // namespace svt::writers
