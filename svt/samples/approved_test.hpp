@@ -5,7 +5,6 @@
 
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/core/test_data_test.hpp>
-#include <svt/samples/parts/random.hpp>
 
 #include <gtest/gtest.h>
 

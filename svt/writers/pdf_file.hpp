@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A PDF in memory, and what it cannot show.
+/// A PDF in memory, with the letters that it cannot show.
 
 #include <string>
 
