@@ -218,7 +218,9 @@ TEST(FeatureMeasures, AreThoseOfADenseArray) {
             const auto expectBox = [&](const Box3d& box, const SampleBox& samples) {
                 const Box3d expected = worldBox(samples, volume.grid);
                 EXPECT_EQ(box.isEmpty(), expected.isEmpty());
-                if (!box.isEmpty()) EXPECT_TRUE(box.min == expected.min && box.max == expected.max) << seed;
+                if (!box.isEmpty()) {
+                    EXPECT_TRUE(box.min == expected.min && box.max == expected.max) << seed;
+                }
             };
             expectBox(measure.total.box, total.box);
             expectBox(measure.own.box, alone.box);
