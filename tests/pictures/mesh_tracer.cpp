@@ -123,8 +123,7 @@ std::vector<Crossing> MeshTracer::State::crossings(Vec3d origin, Vec3d direction
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene, &context.embree, &hit);
     std::ranges::sort(context.met);
-    const auto twice = std::ranges::unique(context.met);
-    context.met.erase(twice.begin(), twice.end());
+    context.met.erase(std::unique(context.met.begin(), context.met.end()), context.met.end());
     std::vector<Crossing> found;
     for (const auto& [object, triangle] : context.met) {
         const mesh::ObjectMesh& mesh = meshes.objects[object];

@@ -20,10 +20,10 @@ inline double designCut(const std::vector<samples::SampleComponent>& components,
     std::vector<double> xs, ys;
     std::vector<const samples::SampleComponent*> cut;
     bool isSlanted = false;
-    const auto addLinesAt = [&](const samples::SamplePiece& piece, double z) {
+    const auto addLinesAt = [&](const samples::SamplePiece& piece, double height) {
         for (const samples::HalfSpace& side : piece.sides) {
             const bool isAcrossX = std::abs(side.normal.x) > 1e-9, isAcrossY = std::abs(side.normal.y) > 1e-9;
-            const double limit = side.offset - side.normal.z * z;
+            const double limit = side.offset - side.normal.z * height;
             if (!isAcrossX && !isAcrossY && limit < 0) return false;  // the piece is not at this height
             isSlanted = isSlanted || (isAcrossX && isAcrossY);
             if (isAcrossX) xs.push_back(limit / side.normal.x);
@@ -31,10 +31,10 @@ inline double designCut(const std::vector<samples::SampleComponent>& components,
         }
         return true;
     };
-    const auto addComponent = [&](const samples::SampleComponent& component, double z) {
+    const auto addComponent = [&](const samples::SampleComponent& component, double height) {
         bool isCut = false;
         for (const auto& solid : component.solids)
-            for (const samples::SamplePiece& piece : solid) isCut = (addLinesAt(piece, z) && piece.adds) || isCut;
+            for (const samples::SamplePiece& piece : solid) isCut = (addLinesAt(piece, height) && piece.adds) || isCut;
         return isCut;
     };
     for (const samples::SampleComponent& component : components)
