@@ -2,6 +2,7 @@
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/options/site_options.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <svt/serve/precompressed.hpp>
 
 #include <fmt/format.h>
 
@@ -32,12 +33,17 @@ Result<int> runPublish(const PublishArguments& arguments) {
     SVT_TRY(site, serve::viewerSite(*viewer, *models));
     SVT_TRY(preview, pagePreview(*models, arguments.address, arguments.site.build.threads));
     SVT_DO(serve::addPageHead(*site, std::move(*preview)));
+    if (!serve::addCompressedModules(*site))
+        note(
+            "the page has no modules compressed by Brotli (.br), because libbrotlienc.so.1 is missing (Debian: "
+            "libbrotli1); .gz files are there");
     SVT_TRY(bytes, serve::writeSite(*site, arguments.output));
     const bool hasCity =
         std::any_of(models->begin(), models->end(), [](const serve::SiteModel& model) { return !model.city.empty(); });
     summarize(fmt::format("{}: {} files, {:.1f} kB; {} shows it", arguments.output.string(), site->resources().size(),
                           double(*bytes) / 1000,
-                          hasCity ? "a web server with range requests (nginx, Apache, S3, not 'python3 -m http.server')"
+                          hasCity ? "a web server with range requests (nginx, Apache, Caddy, S3; not 'python3 -m "
+                                    "http.server' and 'php -S')"
                                   : "any web server"));
     return kDone;
 }

@@ -170,7 +170,7 @@ describe("colours by value", () => {
 describe("the selection", () => {
   const swatch = () =>
     inPage(
-      "document.querySelector('svt-app').shadowRoot.querySelector('svt-properties').shadowRoot.querySelector('svt-style-editor').shadowRoot.querySelector('wa-color-picker').value",
+      "document.querySelector('svt-app').shadowRoot.querySelector('svt-properties').shadowRoot.querySelector('svt-style-editor').shadowRoot.querySelector('input[type=color]').value",
     );
 
   it("has its own colour in the panel", async () => {

@@ -62,6 +62,10 @@ describe("BCF 3.0", () => {
     await visit.eventually(async () => assert.equal(await list.count(), 1));
     await visit.page.click("#keep-view");
     await visit.eventually(async () => assert.equal(await list.count(), 2));
+    await visit.page.getByRole("button", { name: "Comment and status of View 1" }).click();
+    await visit.page.getByRole("textbox", { name: "Comment", exact: true }).fill("The lintel <is> missing");
+    await visit.page.getByRole("textbox", { name: "Author", exact: true }).fill("Ada");
+    await visit.page.getByRole("combobox", { name: "Status", exact: true }).selectOption("In Progress");
     const kept = await inPage(
       "document.querySelector('svt-app').shadowRoot.querySelector('svt-share-tool').shadowRoot.querySelector('svt-bookmark-list').views",
     );
@@ -75,6 +79,17 @@ describe("BCF 3.0", () => {
     assert.equal(names.filter((n) => n.endsWith("/markup.bcf")).length, 2);
     assert.equal(names.filter((n) => n.endsWith("/snapshot.png")).length, 2);
     assert.ok(names.includes("bcf.version") && names.includes("extensions.xml"));
+    for (const snapshot of names.filter((n) => n.endsWith("/snapshot.png"))) {
+      const png = readFileSync(join(folder, snapshot));
+      assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], [1280, 720], "pictures for reading, not for a list");
+    }
+    const topics = names.filter((n) => n.endsWith("/markup.bcf")).map((n) => readFileSync(join(folder, n), "utf8"));
+    const commented = topics.find((xml) => xml.includes("<Comments>"));
+    assert.match(
+      commented,
+      /TopicStatus="In Progress".*<CreationAuthor>Ada<.*<Author>Ada<.*<Comment>The lintel &#60;is&#62; missing<\/Comment>/,
+    );
+    assert.match(readFileSync(join(folder, "extensions.xml"), "utf8"), /<TopicStatus>In Progress<.*<User>Ada</);
     // With the schemas of buildingSMART (BCF-XML, release 3.0) at hand, by them.
     const schemas = process.env.SVT_BCF_SCHEMAS ?? "";
     const kinds = [
@@ -121,6 +136,10 @@ describe("BCF 3.0", () => {
     assert.deepEqual(
       back.map((view) => view.name),
       kept.map((view) => view.name),
+    );
+    assert.deepEqual(
+      ["comment", "author", "status"].map((key) => back[0][key]),
+      ["The lintel <is> missing", "Ada", "In Progress"],
     );
     for (const [n, { state }] of back.entries()) {
       const was = kept[n].state;
@@ -449,7 +468,7 @@ describe("screen reader", () => {
         ["main", ""],
       ])
         assert.ok(has(role, name), `no ${role} '${name}'`);
-      assert.equal(has("button", words.section).expanded, true);
+      assert.equal(nodes.find((node) => node.role === "button" && node.name === words.section)?.expanded, true);
       assert.ok(
         nodes.some((node) => node.name.startsWith(words.picture)),
         "the picture says what it is",

@@ -7,7 +7,7 @@ import { gzipSync } from "node:zlib";
 import { page as pageFolder, repository, serve, svtServe } from "./harness.mjs";
 import { withHouse } from "./visit.mjs";
 
-const { at, visit, open } = withHouse("start");
+const { at, visit, open, address } = withHouse("start");
 const { inPage, state, settled, firstImage, stage, eventually, drop } = visit;
 
 describe("start", () => {
@@ -75,6 +75,28 @@ describe("start", () => {
       const late = await stage();
       for (const side of ["x", "y", "width", "height"])
         assert.ok(Math.abs(early[side] - late[side]) < 0.6, `at ${width}, ${side}: ${early[side]}, then ${late[side]}`);
+    }
+  });
+
+  it("shifts nothing while it begins", async () => {
+    for (const viewport of [
+      { width: 1280, height: 800 },
+      { width: 900, height: 600 },
+      { width: 390, height: 844 },
+    ]) {
+      await visit.begin({ viewport });
+      await visit.page.addInitScript(() => {
+        globalThis.shifts = 0;
+        new PerformanceObserver((list) => {
+          for (const entry of /** @type {any[]} */ (list.getEntries())) if (!entry.hadRecentInput) globalThis.shifts += entry.value;
+        }).observe({ type: "layout-shift", buffered: true });
+      });
+      await visit.page.goto(address());
+      await firstImage();
+      await visit.page.waitForFunction(() => customElements.get("wa-split-panel") && customElements.get("svt-view-cube"));
+      await settled();
+      const shifts = await visit.page.evaluate(() => globalThis.shifts);
+      assert.ok(shifts <= 0.05, `at ${viewport.width} px, parts move by ${shifts}`);
     }
   });
 

@@ -30,7 +30,12 @@ export function withHouse(name) {
     await server?.close();
     drop();
   });
-  return { at, visit, open: (query = "?model=house", options = {}) => visit.open(server.url + query, options) };
+  return {
+    at,
+    visit,
+    address: (query = "?model=house") => server.url + query,
+    open: (query = "?model=house", options = {}) => visit.open(server.url + query, options),
+  };
 }
 
 export class Visit {

@@ -7,7 +7,8 @@ import type { Session } from "./session";
 import type { Tool } from "./session/view";
 import { kViews } from "./state/member_controls";
 import { t } from "./texts";
-import { withProjection } from "./camera/camera";
+import { toggleParallel } from "./camera/projection";
+import { toolText } from "./tool_texts";
 import { cutStorey, levelsOf } from "./tools/section_tool";
 import { setWalking } from "./tools/views_tool";
 import type { IconName } from "./ui/icons";
@@ -92,7 +93,8 @@ function viewActions(session: Session): Action[] {
       text: () => t("parallel"),
       icon: "view",
       isEnabled: () => view.state.camera !== null && !view.isWalking,
-      run: () => view.turn(withProjection(view.state.camera!, !view.state.camera!.parallel)),
+      keys: ["p"],
+      run: () => toggleParallel(view),
     },
     {
       id: "undo",
@@ -135,6 +137,14 @@ function pageActions(host: ActionHost, hasParts: () => boolean): Action[] {
       run: () => session.view.set({ hide: [], show: [] }),
     },
     { id: "search", text: () => t("search"), icon: "search", keys: ["/"], isEnabled: hasParts, run: () => host.search() },
+    {
+      id: "rectangle",
+      text: () => toolText("rectangle"),
+      icon: "rectangle",
+      keys: ["r"],
+      isEnabled: hasParts,
+      run: () => (session.view.aim = "rectangle"),
+    },
     { id: "table", text: () => t("tableHint"), icon: "table", keys: ["t"], isEnabled: hasParts, run: () => host.openTable() },
     {
       id: "panel-tree",
@@ -174,6 +184,10 @@ function toolActions(host: ActionHost): Action[] {
   });
   return [
     press("add-plane", () => t("addPlane"), "section", "section", "#add-plane"),
+    press("plane-by-face", () => `${t("section")}: ${toolText("planeByFace")}`, "section", "section", "#plane-by-face"),
+    press("section-box", () => toolText("sectionBox"), "section", "section", "#section-box"),
+    press("sun", () => toolText("sun"), "sun", "look", "#sun"),
+    press("next-view", () => toolText("nextView"), "bookmark", "share", "#next-view"),
     press("sheets", () => t("sheets"), "section", "section", "#draw-sheets"),
     press("keep-view", () => t("keepView"), "bookmark", "share", "#keep-view"),
     press("copy-link", () => t("copyLink"), "copy", "share", "#copy-link"),

@@ -4,6 +4,7 @@ import { html, nothing, type PropertyValues } from "lit";
 import { actionOfKey, actionsOf, kTools, storeyActions, type ActionHost } from "./actions";
 import { appStyles } from "./app_styles";
 import "./canvas/picture";
+import type { PictureTools } from "./canvas/overlay";
 import type { PictureView } from "./canvas/picture";
 import type { CommandPalette } from "./panels/command_palette";
 import type { ContextMenu } from "./panels/context_menu";
@@ -23,6 +24,7 @@ import { isSameChoice, type ViewState } from "./state/view_state";
 import "./tools/focus_tool";
 import "./tools/lens_tool";
 import "./tools/look_tool";
+import { measuringOf } from "./tools/measure_points";
 import "./tools/measure_tool";
 import "./tools/section_tool";
 import "./tools/share_tool";
@@ -65,6 +67,8 @@ export class App extends Part implements ActionHost {
   onModel: (name: string) => void = () => {};
   private seenSelection: unknown = null;
   private wasWalking = false;
+  private wasAiming = false;
+  private pictureTools: PictureTools | null = null;
   /** The last message, and the view when it came. */
   private seenMessage: { message: Message | null; state: ViewState } | null = null;
 
@@ -117,7 +121,10 @@ export class App extends Part implements ActionHost {
   override updated(): void {
     const { view } = this.session;
     if (view.isWalking && !this.wasWalking) this.picture?.focus();
+    if (view.aim) void this.loaded("svt-aim", () => import("./tools/aim_layer"));
+    else if (this.wasAiming) this.picture?.focus();
     this.wasWalking = view.isWalking;
+    this.wasAiming = view.aim !== null;
     this.endMessage();
     view.mark = getComputedStyle(this).getPropertyValue("--mark").trim();
   }
@@ -206,19 +213,26 @@ export class App extends Part implements ActionHost {
     else this.isSelectionShown = isOn;
   }
 
+  /** The tree, the picture, and a column at the right with the tool and the selection. */
   private wide() {
+    const { view, selection, volume } = this.session;
     const properties = html`<svt-properties .session=${this.session}></svt-properties>`;
-    const hasColumn = !this.isSmall && this.isSelectionShown;
-    // Without room for a third column, the selection is shown below the parts.
-    const isBelow = this.isSmall && this.isTreeShown && this.isSelectionShown && !this.session.selection.isEmpty;
+    const hasColumn = !this.isSmall && (this.isSelectionShown || view.tool !== null);
+    const hasTree = this.isTreeShown && !volume.isServerOnly;
+    // Without room for a third column, the tool or the selection is below the parts.
+    const isBelow = this.isSmall && hasTree && (view.tool !== null || (this.isSelectionShown && !selection.isEmpty));
+    const card = view.tool ? this.card(view.tool) : nothing;
+    const picture = this.middle(hasColumn || isBelow);
+    const column = html`<div slot="end" class="side column">${card}${this.isSelectionShown ? html`<aside aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>`;
+    const isFloating = !hasColumn && this.isSelectionShown && !selection.isEmpty && (!isBelow || view.tool !== null);
     const middle = hasColumn
-      ? html`<wa-split-panel position-in-pixels=${this.isHuge ? 420 : 300} primary="end"><div slot="start" class="middle">${this.middle()}</div><aside slot="end" class="side" aria-label=${t("panelProperties")}>${properties}</aside></wa-split-panel>`
-      : html`<div class="middle">${this.middle()}${this.isSelectionShown && !this.session.selection.isEmpty && !isBelow ? html`<aside class="floating" aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>`;
-    if (!this.isTreeShown || this.session.volume.isServerOnly) return middle;
+      ? html`<wa-split-panel position-in-pixels=${this.isHuge ? 420 : 320} primary="end"><div slot="start" class="middle">${picture}</div>${column}</wa-split-panel>`
+      : html`<div class="middle">${picture}${isFloating ? html`<aside class="floating" aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>`;
+    if (!hasTree) return middle;
     const tree = html`<svt-tree .session=${this.session}></svt-tree>`;
-    return html`<wa-split-panel position-in-pixels=${this.isSmall ? 260 : this.isHuge ? 420 : 310} primary="start">
+    return html`<wa-split-panel position-in-pixels=${this.isHuge ? 420 : this.isSmall && !view.tool ? 260 : 310} primary="start">
       <div slot="start" class="side ${isBelow ? "shared" : ""}"><nav aria-label=${t("panelTree")}>${tree}</nav>
-        ${isBelow ? html`<aside aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>
+        ${isBelow ? (view.tool ? card : html`<aside aria-label=${t("panelProperties")}>${properties}</aside>`) : nothing}</div>
       <div slot="end" class="middle">${middle}</div></wa-split-panel>`;
   }
 
@@ -236,14 +250,18 @@ export class App extends Part implements ActionHost {
     return nothing;
   }
 
-  private middle() {
+  /** @param isDocked  the tool is in a column beside the picture */
+  private middle(isDocked = false) {
     const { session } = this;
     const { view, picture } = session;
+    this.pictureTools ??= measuringOf(session);
     return html`<div class="middle">
-      <svt-picture .session=${session} .canvas=${this.canvas}></svt-picture>
+      <svt-picture .session=${session} .canvas=${this.canvas} .tools=${this.pictureTools}></svt-picture>
       ${
         session.volume.info
           ? html`
+        ${session.volume.isServerOnly ? nothing : html`<svt-view-cube .session=${session}></svt-view-cube>`}
+        ${view.aim ? html`<svt-aim .session=${session}></svt-aim>` : nothing}
         <div class="corner">
           ${view.now.custom ? html`<div class="note">${t("customScene")}<button @click=${() => view.set(leaveCustom(view.state))}>${t("leaveCustom")}</button></div>` : nothing}
           ${session.volume.isServerOnly ? html`<div class="note">${t("serverPictures")}</div>` : nothing}
@@ -252,7 +270,7 @@ export class App extends Part implements ActionHost {
           ${view.isLegendShown ? html`<svt-legend .session=${session}></svt-legend>` : nothing}
         </div>
         ${this.status()}
-        ${view.tool ? this.card(view.tool) : nothing}
+        ${view.tool && !isDocked ? this.card(view.tool) : nothing}
         ${this.dock()}`
           : nothing
       }
@@ -298,7 +316,7 @@ export class App extends Part implements ActionHost {
       section: now.sections.length > 0,
       lens: now.effect === "lens",
       focus: now.effect === "highlight" || now.effect === "cutaway" || now.shell !== null,
-      look: now.wireframe !== null,
+      look: now.wireframe !== null || now.sun !== null,
       measure: now.measured.length > 0,
       views: view.isWalking,
       share: false,
@@ -487,6 +505,7 @@ export class App extends Part implements ActionHost {
     const { session } = this;
     if (typing) typing.blur();
     else if (session.model.opening) session.model.cancelOpening();
+    else if (session.view.aim) session.view.aim = null;
     else if (session.messages.message) this.dismiss();
     else if (session.view.tool) this.endTool(session.view.tool);
     else if (session.view.isWalking) setWalking(session, false);

@@ -14,18 +14,23 @@ export const appStyles = css`
   header button.bare { min-width: 36px; min-height: 36px; }
   main { position: relative; min-height: 0; min-width: 0; overflow: hidden; }
   wa-split-panel { position: absolute; inset: 0; --divider-width: 1px; --divider-hit-area: 12px; --min: 200px; --max: 50%; --wa-color-surface-border: var(--line); }
-  /* The future layout, until the component loads: half a pixel of the divider belongs to the side. */
-  wa-split-panel:not(:defined) { display: grid; grid-template: minmax(0, 1fr) / 309.5px minmax(0, 1fr); column-gap: 1px; }
-  wa-split-panel[position-in-pixels="260"]:not(:defined) { grid-template-columns: 259.5px minmax(0, 1fr); }
-  wa-split-panel[position-in-pixels="420"]:not(:defined) { grid-template-columns: 419.5px minmax(0, 1fr); }
-  wa-split-panel[primary="end"]:not(:defined) { grid-template-columns: minmax(0, 1fr) 299.5px; }
-  wa-split-panel[primary="end"][position-in-pixels="420"]:not(:defined) { grid-template-columns: minmax(0, 1fr) 419.5px; }
+  /* The future layout, until the component has loaded and measured itself: half a pixel of the divider belongs to the side. */
+  wa-split-panel { --first: 309.5px; --second: minmax(0, 1fr); }
+  wa-split-panel[position-in-pixels="260"] { --first: 259.5px; }
+  wa-split-panel[position-in-pixels="420"] { --first: 419.5px; }
+  wa-split-panel[primary="end"] { --first: minmax(0, 1fr); --second: 319.5px; }
+  wa-split-panel[primary="end"][position-in-pixels="420"] { --second: 419.5px; }
+  wa-split-panel:not(:defined) { display: grid; grid-template: minmax(0, 1fr) / var(--first) var(--second); column-gap: 1px; }
+  /* A splitter inside another one has no width when it begins, and its share of it is infinite until the next frame. */
+  wa-split-panel[position="Infinity"] { grid-template-columns: var(--first) 1px var(--second) !important; }
   wa-split-panel::part(divider) { background: var(--line); }
   wa-split-panel::part(divider):focus-visible { outline: 2px solid var(--focus); background: var(--focus); }
   .side { height: 100%; min-width: 0; overflow: hidden; background: var(--panel); }
   .side nav { height: 100%; min-height: 0; }
   .side.shared { display: grid; grid-template: minmax(0, 1fr) minmax(0, 1fr) / minmax(0, 1fr); }
   .side.shared aside { min-height: 0; border-top: 1px solid var(--line); }
+  .column { display: flex; flex-direction: column; }
+  .column aside { flex: 1 1 0; min-height: 0; }
   .middle { position: relative; height: 100%; min-width: 0; overflow: hidden; }
   .floating { position: absolute; right: 10px; top: 10px; width: 290px; max-height: calc(100% - 96px); overflow: auto; border: 1px solid var(--line); border-radius: 12px; background: var(--panel); box-shadow: var(--shadow); z-index: 3; }
   .floating svt-properties { height: auto; }
@@ -39,7 +44,11 @@ export const appStyles = css`
   .dock button:hover { background: var(--hover); }
   .dock button[aria-expanded="true"] { background: var(--accent-soft); color: var(--accent-text); }
   .dock button.used::after { content: ""; position: absolute; top: 4px; right: 8px; width: 7px; height: 7px; border-radius: 50%; background: var(--accent); }
-  .card { position: absolute; left: 10px; top: 10px; width: min(330px, calc(100% - 20px)); max-height: calc(100% - 96px); overflow: auto; padding: 12px 14px 14px; border: 1px solid var(--line); border-radius: 14px; background: var(--panel); box-shadow: var(--shadow); z-index: 4; font-size: 13px; }
+  .card { position: absolute; left: 114px; top: 10px; width: min(330px, calc(100% - 124px)); max-height: calc(100% - 96px); overflow: auto; padding: 12px 14px 14px; border: 1px solid var(--line); border-radius: 14px; background: var(--panel); box-shadow: var(--shadow); z-index: 4; font-size: 13px; }
+  .side .card { position: static; width: auto; max-height: none; min-height: 0; border: 0; border-radius: 0; box-shadow: none; }
+  .column .card { flex: 0 1 auto; max-height: 66%; }
+  .column .card:last-child { max-height: none; }
+  .column .card + aside, .shared .card { border-top: 1px solid var(--line-strong); }
   .card > .bar { display: flex; justify-content: space-between; align-items: center; margin-bottom: 6px; }
   .corner { position: absolute; right: 10px; top: 46px; display: grid; gap: 8px; z-index: 2; max-width: 46%; justify-items: end; }
   .status { position: absolute; right: 12px; top: 8px; font-size: 11px; color: var(--stage-quiet); z-index: 1; font-variant-numeric: tabular-nums; pointer-events: none; text-align: right; }
@@ -69,6 +78,8 @@ export const appStyles = css`
     .brand, .title .quiet, .status { display: none; }
     main { display: grid; }
     main > .middle { display: grid; grid-template-rows: minmax(0, 1fr) auto auto; }
+    /* Over the picture only. */
+    svt-aim { grid-area: 1 / 1 / 2 / 2; }
     .dock, .card, .sheet { position: static; transform: none; max-width: none; width: auto; border-radius: 0; border-width: 1px 0 0; box-shadow: none; }
     .dock { order: 2; justify-content: space-between; }
     .dock button { min-width: 0; padding: 5px 2px; flex: 1; font-size: 10.5px; overflow: hidden; }

@@ -47,6 +47,7 @@ function loadComponents(): void {
   const isSeen = until(() => session.picture.report !== null || session.model.status === "empty");
   void Promise.race([isPast, isSeen]).then(() => {
     void import("./ui/components");
+    void import("./canvas/view_cube");
     void session.languages.find();
   });
 }

@@ -82,6 +82,78 @@ const kToolTexts = {
   keyTree: ["In the list", "In der Liste"],
   keyTreeHow: ["arrow keys, Enter selects, Space hides, C colours", "Pfeiltasten, Eingabe wählt, Leertaste verbirgt, C färbt"],
 
+  cube: ["View cube", "Ansichtswürfel"],
+  cubeHint: [
+    "View cube. Arrow keys turn the view by 45 degrees, Enter shows all of it, Home shows it slanted.",
+    "Ansichtswürfel. Pfeiltasten drehen um 45 Grad, Eingabe zeigt alles, Pos1 zeigt es schräg.",
+  ],
+  cubeFit: ["The whole model", "Das ganze Modell"],
+  rectangle: ["Select in a rectangle", "Im Rechteck auswählen"],
+  rectangleHint: [
+    "Drag a rectangle. To the right, it selects what is completely inside; to the left, all that it touches.",
+    "Ein Rechteck ziehen. Nach rechts wählt es, was ganz darin liegt; nach links alles, was es berührt.",
+  ],
+  rectangleKeys: [
+    "Arrow keys change its size, with Shift its place; Enter selects, with Ctrl in addition.",
+    "Pfeiltasten ändern die Größe, mit Umschalt die Lage; Eingabe wählt aus, mit Strg zusätzlich.",
+  ],
+  planeByFace: ["Through a face", "Durch eine Fläche"],
+  faceHint: ["Click a face: the plane goes through it.", "Eine Fläche anklicken: Die Ebene geht durch sie."],
+  faceKeys: ["Enter takes the face in the middle.", "Eingabe nimmt die Fläche in der Mitte."],
+  facePlane: ["Plane {n} goes through the face.", "Ebene {n} geht durch die Fläche."],
+  faceNothing: ["There is no face here.", "Hier ist keine Fläche."],
+  sectionBox: ["Section box", "Schnittkasten"],
+  sectionBoxHint: [
+    "Six planes around the selection, or around the middle of the building. They replace other planes.",
+    "Sechs Ebenen um die Auswahl oder die Mitte des Gebäudes. Sie ersetzen andere Ebenen.",
+  ],
+  boxFrom: ["{axis} from", "{axis} von"],
+  boxTo: ["{axis} to", "{axis} bis"],
+
+  square: ["Right angles", "Rechte Winkel"],
+  squareHint: [
+    "Each point lies along x, y or z from the point before. Shift and click does the same for one point.",
+    "Jeder Punkt liegt vom vorigen aus entlang x, y oder z. Umschalt und Klick tut dasselbe für einen Punkt.",
+  ],
+  onGround: ["On the ground", "Am Boden"],
+  atCutCorner: ["at a corner of the cut", "an einer Ecke des Schnitts"],
+  atCutEdge: ["on an edge of the cut", "auf einer Kante des Schnitts"],
+
+  sun: ["Sun and shadows", "Sonne und Schatten"],
+  sunHint: ["Light by the sun, with shadows", "Licht der Sonne, mit Schatten"],
+  sunDay: ["Day", "Tag"],
+  sunHour: ["Hour", "Uhrzeit"],
+  sunPlace: [
+    "The model does not state its place on earth. Enter its latitude and longitude.",
+    "Das Modell nennt seinen Ort auf der Erde nicht. Breite und Länge eingeben.",
+  ],
+  sunPlaceHint: ["Degrees: north and east are positive", "Grad: Nord und Ost sind positiv"],
+  latitude: ["Latitude", "Breite"],
+  longitude: ["Longitude", "Länge"],
+
+  walkThrough: ["Walk through the views", "Ansichten durchgehen"],
+  previousView: ["Previous view", "Vorige Ansicht"],
+  nextView: ["Next view", "Nächste Ansicht"],
+  viewOf: ["{n} of {all}: {name}", "{n} von {all}: {name}"],
+  viewDetails: ["Comment and status of {name}", "Kommentar und Status von {name}"],
+  comment: ["Comment", "Kommentar"],
+  author: ["Author", "Von"],
+  status: ["Status", "Status"],
+  statusOpen: ["Open", "Offen"],
+  statusInProgress: ["In progress", "In Arbeit"],
+  statusClosed: ["Closed", "Erledigt"],
+
+  keyCube: ["View cube", "Ansichtswürfel"],
+  keyCubeHow: [
+    "click a face, an edge or a corner; drag; arrow keys turn by 45 degrees; P: parallel",
+    "Fläche, Kante oder Ecke anklicken; ziehen; Pfeiltasten drehen um 45 Grad; P: parallel",
+  ],
+  keyRectangle: ["Select in a rectangle", "Im Rechteck auswählen"],
+  keyRectangleHow: [
+    "R, then drag; in the list: Shift and click, Shift and arrow keys",
+    "R, dann ziehen; in der Liste: Umschalt und Klick, Umschalt und Pfeiltasten",
+  ],
+
   findingsOfCode: ["{code}: {n}", "{code}: {n}"],
   findingsMore: ["{n} more", "{n} weitere"],
 } as const satisfies Record<string, readonly [string, string]>;

@@ -1,13 +1,11 @@
-/** Graphics over the picture: section planes with their handles, the box of the selection, measured points. */
+/** Graphics over the picture: section planes with their handles, the box of the selection, axes. */
 
 import { svg, nothing, type SVGTemplateResult } from "lit";
 import { project } from "../camera/camera";
-import { add, distance, scale } from "../camera/vec";
+import { distance } from "../camera/vec";
 import type { Point } from "../engine";
 import type { Session } from "../session";
-import { boxEdges, keptInside, middleOf, normalOf, planeOutline } from "../tools/plane_outline";
-import { polygonArea } from "../tools/measure";
-import { number } from "../texts";
+import { boxEdges, keptBox, keptInside, middleOf, normalOf, planeOutline } from "../tools/plane_outline";
 
 export interface View {
   session: Session;
@@ -15,7 +13,14 @@ export interface View {
   height: number;
 }
 
-type Seen = { x: number; y: number };
+export type Seen = { x: number; y: number };
+
+/** Parts of the page over the picture. In other pages, pictures lack them. */
+export interface PictureTools {
+  graphics(view: View): unknown;
+  /** Takes a click at fractions of the picture; false: the click selects. @param size  of the picture, CSS pixels */
+  click(x: number, y: number, event: PointerEvent, size: [number, number]): boolean;
+}
 
 export function place({ session, width, height }: View, p: Point): Seen | null {
   const camera = session.picture.camera;
@@ -23,34 +28,31 @@ export function place({ session, width, height }: View, p: Point): Seen | null {
   return seen && { x: seen.x * width, y: seen.y * height };
 }
 
-function pathOf(view: View, points: Point[], isClosed: boolean): string | null {
+export function pathOf(view: View, points: Point[], isClosed: boolean): string | null {
   const seen = points.map((p) => place(view, p));
   if (seen.some((p) => p === null)) return null;
   const text = (seen as Seen[]).map((p) => `${p.x.toFixed(1)},${p.y.toFixed(1)}`).join("L");
   return `M${text}${isClosed ? "Z" : ""}`;
 }
 
+/** The outline of a plane within the part of the box that the other planes keep. */
+function outlineOf({ volume, view }: Session, n: number): Point[] {
+  const { sections } = view.now;
+  return planeOutline(keptInside(sections[n]!, volume.box), keptBox(volume.box, sections, n));
+}
+
 export function planes(view: View): SVGTemplateResult[] {
-  const { box } = view.session.volume;
-  return view.session.view.now.sections.map((section) => {
-    const path = pathOf(view, planeOutline(keptInside(section, box), box), true);
+  return view.session.view.now.sections.map((_, n) => {
+    const path = pathOf(view, outlineOf(view.session, n), true);
     return path ? svg`<path class="plane" d=${path}></path>` : svg``;
   });
 }
 
-/** Position of the handle of a plane: at the centre of its outline, or right of it if a tool card covers the left. */
+/** Position of the handle of a plane: at the centre of its outline. */
 export function handleOf(session: Session, n: number): { at: Point; normal: Point } | null {
   const section = session.view.now.sections[n];
-  if (!section) return null;
-  const outline = planeOutline(keptInside(section, session.volume.box), session.volume.box);
-  if (!outline.length) return null;
-  const normal = normalOf(section, session.volume.box),
-    middle = middleOf(outline);
-  const camera = session.picture.camera;
-  if (!session.view.tool || !camera) return { at: middle, normal };
-  const across = (p: Point) => project(camera, 1, p, session.volume.box.axes)?.x ?? -1;
-  const right = outline.reduce((a, b) => (across(a) > across(b) ? a : b));
-  return { at: add(scale(middle, 0.4), scale(right, 0.6)), normal };
+  const outline = section ? outlineOf(session, n) : [];
+  return section && outline.length ? { at: middleOf(outline), normal: normalOf(section, session.volume.box) } : null;
 }
 
 export function selectionBox(view: View): SVGTemplateResult | typeof nothing {
@@ -60,35 +62,6 @@ export function selectionBox(view: View): SVGTemplateResult | typeof nothing {
   if (lines.some((line) => line === null)) return nothing;
   const d = lines.join("");
   return svg`<path class="box-under" d=${d}></path><path class="box" d=${d}></path>`;
-}
-
-export function measure(view: View): SVGTemplateResult | typeof nothing {
-  const points = view.session.view.now.measured;
-  if (!points.length) return nothing;
-  const path = pathOf(view, points, points.length > 2);
-  const dots = points.map((p) => place(view, p)).filter((p) => p !== null);
-  const texts = points.slice(1).map((p, i) => ({ of: [points[i]!, p], text: `${number(distance(points[i]!, p), 3)} m` }));
-  if (points.length > 2) texts.push({ of: points, text: `${number(polygonArea(points), 2)} m²` });
-  return svg`${path ? svg`<path class="measure" d=${path}></path>` : nothing}
-    ${dots.map((p) => svg`<circle class="dot" cx=${p.x} cy=${p.y} r="4"></circle>`)}${labels(view, texts)}`;
-}
-
-/** Size of a label with its text, pixels. */
-const kLabelWidth = 68,
-  kLabelHeight = 16;
-
-/** Places each label at the middle of its points, below labels that are already there. */
-function labels(view: View, texts: { of: Point[]; text: string }[]): SVGTemplateResult[] {
-  const taken: Seen[] = [];
-  return texts.map(({ of, text }) => {
-    const middle = place(view, middleOf(of));
-    if (!middle) return svg``;
-    const at = { x: middle.x, y: middle.y - 7 };
-    for (const other of [...taken].sort((a, b) => a.y - b.y))
-      if (Math.abs(other.x - at.x) < kLabelWidth && Math.abs(other.y - at.y) < kLabelHeight) at.y = other.y + kLabelHeight;
-    taken.push(at);
-    return svg`<text x=${at.x} y=${at.y} text-anchor="middle">${text}</text>`;
-  });
 }
 
 /** Pixels of a scale bar below the axes. */

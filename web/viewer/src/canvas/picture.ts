@@ -1,9 +1,7 @@
 /** The picture: the engine's canvas, its overlays, and mouse, touch and key input. */
 
 import { css, html, nothing, svg } from "lit";
-import { halfHeight } from "../camera/camera";
 import { Controls } from "../camera/controls";
-import { distance } from "../camera/vec";
 import type { Pick } from "../engine";
 import { t } from "../texts";
 import { controls, Part } from "../ui/part";
@@ -11,11 +9,9 @@ import { labelOf } from "../state/feature_index";
 import { ofId } from "../state/queries";
 import { askForMenu, isMenuKey } from "../panels/menu_request";
 import { dragged, rangeOf } from "../tools/plane_outline";
-import { compass, handleOf, measure, place, planes, selectionBox, type View } from "./overlay";
+import { compass, handleOf, place, planes, selectionBox, type PictureTools, type View } from "./overlay";
 
 const kHoverEvery = 80;
-/** Maximum distance from a click to a corner or an edge that it snaps to. */
-const kSnapPixels = 9;
 /** The splitters load after the first picture. Then panels have other sizes for some frames. */
 const kFramesToSettle = 8;
 const kSplitter = "wa-split-panel";
@@ -36,6 +32,7 @@ export class PictureView extends Part {
     canvas: { attribute: false },
     inputs: { attribute: false },
     isBare: { attribute: false },
+    tools: { attribute: false },
     label: { attribute: false },
     hover: { state: true },
     size: { state: true },
@@ -44,6 +41,8 @@ export class PictureView extends Part {
   declare inputs: Inputs;
   /** No planes with handles and no axes over the picture. */
   declare isBare: boolean;
+  /** null: none. */
+  declare tools: PictureTools | null;
   /** Replaces the description for screen readers; empty: the name of the model. */
   declare label: string;
   declare hover: { pick: Pick; x: number; y: number } | null;
@@ -96,6 +95,7 @@ export class PictureView extends Part {
     super();
     this.inputs = "page";
     this.isBare = false;
+    this.tools = null;
     this.label = "";
     this.hover = null;
     this.size = [1, 1];
@@ -161,16 +161,10 @@ export class PictureView extends Part {
     const { state } = session.view;
     if (state.effect === "lens" && !state.lens.pinned && session.view.tool === "lens")
       return session.view.set({ lens: { ...state.lens, x, y, pinned: true } });
+    if (this.tools?.click(x, y, event, this.size)) return;
     try {
-      const isMeasuring = session.view.tool === "measure";
-      const pick = await session.volume.engine.pick(x, y, isMeasuring && !event.ctrlKey && !event.metaKey ? this.snapReach() : 0);
-      if (!isMeasuring && !this.asks(pick, x, y)) return;
-      if (isMeasuring) {
-        if (!pick) return session.messages.say(t("pickedNothing"));
-        session.view.history.seal();
-        session.messages.say(t(pick.snapped ? (pick.snapped.to === "corner" ? "atCorner" : "atEdge") : "onFace"));
-        return session.view.set({ measured: [...session.view.now.measured, pick.snapped?.point ?? pick.point] });
-      }
+      const pick = await session.volume.engine.pick(x, y);
+      if (!this.asks(pick, x, y)) return;
       session.selection.picked(pick, event.ctrlKey || event.metaKey || event.shiftKey);
     } catch (error) {
       session.messages.fail(error);
@@ -203,14 +197,6 @@ export class PictureView extends Part {
   private asks(pick: Pick | null, x: number, y: number): boolean {
     const event: PickEvent = new CustomEvent("svt-pick", { detail: { pick, x, y }, bubbles: true, cancelable: true });
     return this.dispatchEvent(event);
-  }
-
-  /** Metres of a few pixels at the camera's target. */
-  private snapReach(): number {
-    const camera = this.session.view.now.camera;
-    if (!camera) return 0;
-    const depth = camera.parallel ? 1 : distance(camera.eye, camera.target);
-    return (kSnapPixels * 2 * halfHeight(camera) * depth) / Math.max(1, this.clientHeight);
   }
 
   private async framed(x: number, y: number): Promise<void> {
@@ -262,7 +248,7 @@ export class PictureView extends Part {
         role=${isStill ? "img" : "application"} aria-roledescription=${isStill ? nothing : t("picture")} aria-label=${label} @keydown=${this.menuKey}></div>
       <svg class="cross" viewBox="0 0 15 15" aria-hidden="true"><path d="M7.5 0v15M0 7.5h15"></path></svg>
       <svg class="over" aria-hidden="true">
-        ${isReady ? svg`${this.isBare ? nothing : planes(view)}${selectionBox(view)}${measure(view)}${this.isBare ? nothing : compass(view)}` : nothing}
+        ${isReady ? svg`${this.isBare ? nothing : planes(view)}${selectionBox(view)}${this.tools?.graphics(view)}${this.isBare ? nothing : compass(view)}` : nothing}
       </svg>
       ${isReady && !this.isBare ? session.view.now.sections.map((_, n) => this.handle(view, n)) : nothing}
       ${this.hover ? this.tip(view) : nothing}

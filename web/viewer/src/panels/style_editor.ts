@@ -26,7 +26,7 @@ export class StyleEditor extends Part {
       :host { display: block; }
       .line { display: grid; grid-template-columns: auto 1fr auto; gap: 10px; align-items: center; min-height: 36px; }
       output { font-variant-numeric: tabular-nums; min-width: 34px; text-align: right; }
-      wa-color-picker { --grid-width: 230px; }
+      .line input[type="color"] { width: 34px; min-width: 34px; padding: 2px; cursor: pointer; }
     `,
   ];
 
@@ -36,8 +36,8 @@ export class StyleEditor extends Part {
       opacity = style?.opacity ?? this.opacity;
     return html`
       <div class="line">
-        <wa-color-picker size="s" label=${t("colorOf", { name: this.label })} title=${help("/passes/*/styles/*/color")} .value=${color} without-format-toggle
-          @change=${(e: Event) => this.change({ color: toHex((e.target as HTMLInputElement).value) })}></wa-color-picker>
+        <input type="color" aria-label=${t("colorOf", { name: this.label })} title=${help("/passes/*/styles/*/color")} .value=${color}
+          @input=${(e: Event) => this.change({ color: (e.target as HTMLInputElement).value })} />
         ${memberSlider("opacity", t("opacityOf", { name: this.label }), opacity, (wanted) => this.change({ opacity: wanted }))}
         <output>${Math.round(opacity * 100)} %</output>
       </div>
@@ -53,8 +53,4 @@ export class StyleEditor extends Part {
   }
 }
 
-/** Pickers may return upper case; scenes use lower case. */
-function toHex(value: string | null): string {
-  return /^#[0-9a-f]{6}/i.exec(value ?? "")?.[0].toLowerCase() ?? "#808080";
-}
 customElements.define("svt-style-editor", StyleEditor);

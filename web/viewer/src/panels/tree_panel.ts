@@ -49,6 +49,8 @@ export class TreePanel extends Part {
   private attributeTimer = 0;
   /** Feature with keyboard focus. */
   declare active: number;
+  /** The feature from which Shift selects a range of rows. */
+  private anchor = 0;
   /** Query whose style is edited below the list. */
   declare edited: { query: string; label: string; color: string; opacity: number } | null;
   declare top: number;
@@ -75,7 +77,7 @@ export class TreePanel extends Part {
       .list { flex: 1; min-height: 0; overflow: auto; position: relative; border-top: 1px solid var(--line); overscroll-behavior: contain; outline-offset: -2px !important; }
       .space { position: relative; }
       .item {
-        position: absolute; left: 0; right: 0; height: ${unsafeCSS(`${kRow}px`)}; display: flex; align-items: center; gap: 4px; padding-right: 6px; cursor: default;
+        position: absolute; left: 0; right: 0; height: ${unsafeCSS(`${kRow}px`)}; display: flex; align-items: center; gap: 4px; padding-right: 6px; cursor: default; user-select: none;
       }
       .item:hover { background: var(--hover); }
       .item.selected { background: var(--accent-soft); color: var(--accent-text); }
@@ -134,7 +136,7 @@ export class TreePanel extends Part {
       if (!isSameCity) this.search = this.answer = this.error = "";
       this.byAttribute = new Set();
       this.edited = null;
-      this.active = this.top = 0;
+      this.active = this.top = this.anchor = 0;
     }
     if (this.seenSelection !== now.selection) {
       this.seenSelection = now.selection;
@@ -142,6 +144,7 @@ export class TreePanel extends Part {
       if (last !== undefined) {
         for (const above of ancestors(index, last)) this.open.add(above);
         this.active = last;
+        if (now.selection.length === 1) this.anchor = last;
       }
     }
     this.rows = rowsOf(index, this.open, this.search, this.byAttribute);
@@ -326,9 +329,23 @@ export class TreePanel extends Part {
     this.byAttribute = new Set(ids.map((id) => byId.get(id)!));
   }
 
+  /** With Shift, all rows from the last one that was selected without Shift. */
   private picked(i: number, event: MouseEvent | KeyboardEvent): void {
+    const isAdded = event.ctrlKey || event.metaKey;
     this.active = i;
-    this.session.selection.select([this.session.volume.index.features[i]!.id], event.ctrlKey || event.metaKey);
+    if (event.shiftKey) return this.pickRange(i, isAdded);
+    this.anchor = i;
+    this.session.selection.select([this.session.volume.index.features[i]!.id], isAdded);
+  }
+
+  private pickRange(i: number, isAdded: boolean): void {
+    const { shown } = this.rows;
+    const { view, selection, volume } = this.session;
+    const [from, to] = [Math.max(0, shown.indexOf(this.anchor)), shown.indexOf(i)];
+    const ids = shown.slice(Math.min(from, to), Math.max(from, to) + 1).map((at) => volume.index.features[at]!.id);
+    selection.select(isAdded ? [...new Set([...view.state.selection, ...ids])] : ids);
+    // The last selected feature becomes active; here it is the row that was picked.
+    this.seenSelection = view.state.selection;
   }
 
   /** Selects a row, unless it is selected already, and asks for its menu. */
@@ -438,6 +455,12 @@ export class TreePanel extends Part {
     const isParent = index.end[i]! > i + 1;
     const go = (row: number) => (this.active = shown[Math.min(shown.length - 1, Math.max(0, row))]!);
     const page = Math.max(1, Math.floor(this.listHeight / kRow) - 1);
+    if (event.shiftKey && (event.key === "ArrowDown" || event.key === "ArrowUp")) {
+      event.preventDefault();
+      event.stopPropagation();
+      const next = at + (event.key === "ArrowDown" ? 1 : -1);
+      return shown[next] === undefined ? undefined : this.picked(shown[next], event);
+    }
     const actions: Record<string, () => void> = {
       ArrowDown: () => go(at + 1),
       ArrowUp: () => go(at - 1),

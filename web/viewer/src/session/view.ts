@@ -17,6 +17,8 @@ import type { OpenVolume } from "./open_volume";
 
 type Projection = Pick<Camera, "parallel" | "fieldOfView">;
 export type Tool = "section" | "lens" | "focus" | "look" | "measure" | "views" | "share";
+/** The choice by the next click or drag in the picture: a rectangle of objects, or a face for a plane. */
+export type Aim = "rectangle" | "face";
 
 /** A view that is fitted to features, beside its direction. */
 export interface Framing {
@@ -29,6 +31,9 @@ export interface Framing {
 
 /** Joined queries, each of up to 20,000 characters; the library takes 65,536 bytes. */
 const kMostFramed = 16;
+
+/** The field of view, degrees, in which the library fits a parallel view. */
+const kAlmostParallel = 0.5;
 
 /** Milliseconds from one view to another. */
 const kFlight = 350;
@@ -48,6 +53,9 @@ export class View extends Observable {
   /** Size of the picture area in device pixels. */
   size: [number, number] = [640, 360];
   tool: Tool | null = null;
+  aim: Aim | null = null;
+  /** Measured points lie along an axis from the point before. */
+  isSquare = false;
   isWalking = false;
   isLegendShown = false;
   /** Grows with each change that redraws the picture. */
@@ -96,16 +104,16 @@ export class View extends Observable {
   }
 
   /** @param isOnScreen  selected features are tinted, as nowhere else */
-  describe(size: [number, number], samples?: Samples, isOnScreen = false): Described {
-    const { state } = this;
+  describe(size: [number, number], samples?: Samples, isOnScreen = false, state = this.state): Described {
     const described = sceneOf(state, this.volume.box, size, samples);
     if (this.hasSwitches && !state.custom) {
       const tint = isOnScreen ? this.tint() : [];
+      const hidden = state === this.state ? this.hidden : hiddenFlags(this.volume.index, state.hide, this.answers.of);
       const isFocused = state.effect === "highlight" || state.effect === "cutaway";
       const isAsked = !isFocused && (state.styles.length + state.named.length + tint.length > 0 || state.names);
       described.scene.passes = described.scene.passes!.map((pass) => {
         const styled = tint.length ? { ...pass, styles: [...(pass.styles ?? []), ...tint] } : pass;
-        return withSpaces(styled, this.volume.index, this.hidden, isAsked);
+        return withSpaces(styled, this.volume.index, hidden, isAsked);
       });
     }
     // Tiles of a city fit the pixels. Levels of detail of the tiles would cost time and memory without benefit.
@@ -133,8 +141,8 @@ export class View extends Observable {
   }
 
   /** The scene for `svt render --scene`, with effects. */
-  async composed(size: [number, number], samples?: Samples): Promise<Scene> {
-    const { scene, effects } = this.describe(size, samples);
+  async composed(size: [number, number], samples?: Samples, state = this.state): Promise<Scene> {
+    const { scene, effects } = this.describe(size, samples, false, state);
     const { engine } = this.volume;
     return engine && Object.keys(effects).length ? engine.compose(scene, effects) : scene;
   }
@@ -177,6 +185,7 @@ export class View extends Observable {
   /** Starts the view of another model, without an undo step. */
   begin(state: ViewState): void {
     this.history.clear();
+    this.aim = null;
     this.state = state;
     this.redraw();
   }
@@ -251,20 +260,30 @@ export class View extends Observable {
   /**
    * Moves the camera so that the features of a query fill the picture; from a named view, or from the current direction.
    * @param projection  null: that of the current camera
+   * @param like  a camera with the direction; null: the current one
    */
-  async goTo(query: string, preset: CameraPreset | null, isFollowed = true, projection: Framing | null = null): Promise<void> {
+  async goTo(
+    query: string,
+    preset: CameraPreset | null,
+    isFollowed = true,
+    projection: Framing | null = null,
+    like: Camera | null = null,
+  ): Promise<void> {
     const { engine, info, isServerOnly, box } = this.volume;
     if (!engine || !info) return;
     if (isServerOnly) return this.set({ camera: null, preset: preset ?? this.state.preset });
     const now = this.state.camera;
-    const seen = now ? withProjection(now, false) : null;
-    const from: SceneCamera = seen ? sceneCamera(seen, box, this.aspect) : { preset: kSceneMembers["/camera/preset"].default };
-    if (projection) from.fieldOfView = projection.fieldOfView;
+    const seen = like ?? now;
+    const from: SceneCamera = seen
+      ? sceneCamera(withProjection(seen, false), box, this.aspect)
+      : { preset: kSceneMembers["/camera/preset"].default };
+    const wanted = projection ?? now;
+    if (wanted) from.fieldOfView = wanted.parallel ? kAlmostParallel : wanted.fieldOfView;
     try {
       const found = await engine.view(query, preset, from);
       // Automatic fitting must not override a view that the user chose meanwhile.
       if (!isFollowed && this.state.camera !== now) return;
-      this.moveToFound(found, projection ?? now, isFollowed);
+      this.moveToFound(found, wanted, isFollowed);
     } catch (error) {
       this.messages.fail(error);
     }
@@ -280,8 +299,8 @@ export class View extends Observable {
   moveToFound({ eye, target, fieldOfView }: SceneCamera, like: Projection | null = this.state.camera, isFollowed = true): void {
     if (!eye || !target) return;
     const degrees = fieldOfView ?? like?.fieldOfView ?? kSceneMembers["/camera/fieldOfView"].default;
-    const camera: Camera = { eye, target, parallel: false, height: 10, fieldOfView: degrees };
-    this.moveTo(withProjection(camera, like?.parallel ?? false), isFollowed);
+    const camera = withProjection({ eye, target, parallel: false, height: 10, fieldOfView: degrees }, like?.parallel ?? false);
+    this.moveTo(camera.parallel && like ? { ...camera, fieldOfView: like.fieldOfView } : camera, isFollowed);
   }
 
   beginWalking(): void {
@@ -371,6 +390,7 @@ const kStepNames: Partial<Record<keyof ViewState, TextKey>> = {
   named: "names",
   colorBy: "colorBy",
   picture: "picture",
+  sun: "look",
   hatches: "hatches",
   measured: "measure",
   custom: "sceneJson",

@@ -1,6 +1,7 @@
 /**
  * Bookmarks as BCF 3.0 (buildingSMART, BCF-XML release 3.0), for issue lists of other programs: one topic per bookmark, with
- * camera, clipping planes, visibility, selection, colours and a picture. Positions are in the model's own coordinates.
+ * comment, author, status, camera, clipping planes, visibility, selection, colours and a picture. Positions are in the model's
+ * own coordinates.
  */
 
 import type { Engine, Point, VolumeInfo } from "../engine";
@@ -48,36 +49,53 @@ function guidOf(text: string): string {
   return [hex.slice(0, 8), hex.slice(8, 12), `8${hex.slice(13, 16)}`, `8${hex.slice(17, 20)}`, hex.slice(20)].join("-");
 }
 
-/** @param author  of all topics; @param date  of creation of all topics */
-export async function bcfOf(views: Bookmark[], model: BcfModel, author: string, date: Date): Promise<ArrayBuffer> {
+export const kStatuses = ["Open", "In Progress", "Closed"] as const;
+
+/** The picture of a topic as PNG; null: it cannot be drawn. */
+export type Snapshot = (state: ViewState) => Promise<Uint8Array | null>;
+
+/**
+ * @param author  of topics whose bookmark names none
+ * @param date  of creation of all topics
+ */
+export async function bcfOf(views: Bookmark[], model: BcfModel, author: string, date: Date, snapshot: Snapshot): Promise<ArrayBuffer> {
+  const listed = (name: string, entry: string, values: readonly string[]) =>
+    element(name, [...new Set(values)].map((value) => element(entry, escaped(value))).join(""));
+  const statuses = [...kStatuses, ...views.flatMap(({ status }) => status ?? [])];
+  const users = [author, ...views.flatMap((view) => view.author ?? [])];
   const files: { name: string; text: string | Uint8Array }[] = [
     { name: "bcf.version", text: document('<Version VersionId="3.0"/>') },
     {
       name: "extensions.xml",
       text: document(
-        `<Extensions><TopicTypes><TopicType>View</TopicType></TopicTypes><TopicStatuses><TopicStatus>Open</TopicStatus></TopicStatuses><Users><User>${escaped(author)}</User></Users></Extensions>`,
+        `<Extensions><TopicTypes><TopicType>View</TopicType></TopicTypes>${listed("TopicStatuses", "TopicStatus", statuses)}${listed("Users", "User", users)}</Extensions>`,
       ),
     },
   ];
   for (const [n, view] of views.entries()) {
     const guid = guidOf(`${n} ${view.name} ${JSON.stringify(view.state)}`),
       viewGuid = guidOf(`view ${guid}`);
-    const picture = /^data:image\/png;base64,(.*)$/.exec(view.picture ?? "")?.[1];
+    const picture = await snapshot(view.state);
     files.push({ name: `${guid}/`, text: "" });
     files.push({
       name: `${guid}/markup.bcf`,
-      text: document(markup(view.name, model, author, date, guid, viewGuid, picture !== undefined)),
+      text: document(markup(view, model, view.author ?? author, date, guid, viewGuid, picture !== null)),
     });
     files.push({ name: `${guid}/viewpoint.bcfv`, text: document(await viewpoint(view.state, model, viewGuid)) });
-    if (picture) files.push({ name: `${guid}/snapshot.png`, text: Uint8Array.from(atob(picture), (c) => c.charCodeAt(0)) });
+    if (picture) files.push({ name: `${guid}/snapshot.png`, text: picture });
   }
   return zipOf(files);
 }
 
-function markup(name: string, model: BcfModel, author: string, date: Date, guid: string, viewGuid: string, hasPicture: boolean): string {
+function markup(view: Bookmark, model: BcfModel, author: string, date: Date, guid: string, viewGuid: string, hasPicture: boolean): string {
+  const { name, comment, status = kStatuses[0] } = view;
+  const made = element("Date", date.toISOString()) + element("Author", escaped(author));
+  const comments = comment
+    ? `<Comments><Comment Guid="${guidOf(`comment ${guid}`)}">${made}${element("Comment", escaped(comment))}<Viewpoint Guid="${viewGuid}"/></Comment></Comments>`
+    : "";
   return (
     `<Markup><Header><Files><File IsExternal="true">${element("Filename", escaped(model.file))}</File></Files></Header>` +
-    `<Topic Guid="${guid}" TopicType="View" TopicStatus="Open">${element("Title", escaped(name))}${element("CreationDate", date.toISOString())}${element("CreationAuthor", escaped(author))}` +
+    `<Topic Guid="${guid}" TopicType="View" TopicStatus="${escaped(status)}">${element("Title", escaped(name))}${element("CreationDate", date.toISOString())}${element("CreationAuthor", escaped(author))}${comments}` +
     `<Viewpoints><ViewPoint Guid="${viewGuid}">${element("Viewpoint", "viewpoint.bcfv")}${hasPicture ? element("Snapshot", "snapshot.png") : ""}</ViewPoint></Viewpoints></Topic></Markup>`
   );
 }
@@ -169,21 +187,54 @@ export async function viewsOfBcf(bytes: ArrayBuffer, model: BcfModel): Promise<{
       const read = stateOf(parsed(file), model);
       missing += read.missing;
       const picture = files.get(folder + (point.querySelector(":scope > Snapshot")?.textContent?.trim() ?? ""));
+      const small = picture && (await smallPicture(picture));
       views.push({
         name: points.length > 1 ? `${title} ${n + 1}` : title,
         state: read.state,
-        ...(picture && picture.length < 400_000 ? { picture: dataUrl(picture) } : {}),
+        ...(small ? { picture: small } : {}),
+        ...textsOf(topic),
       });
     }
   }
   return { views, missing };
 }
 
-function dataUrl(picture: Uint8Array): string {
-  const kind = picture[0] === 0x89 ? "png" : "jpeg";
+/** Comments, author, status and day of a topic. In 2.1, comments are siblings of the topic. */
+function textsOf(topic: Document): Pick<Bookmark, "comment" | "author" | "status" | "date"> {
+  const text = (selector: string) => topic.querySelector(selector)?.textContent?.trim() ?? "";
+  const comments = [...topic.querySelectorAll("Comment > Comment")].map((comment) => comment.textContent?.trim()).filter(Boolean);
+  const given = {
+    comment: comments.join("\n") || text("Topic > Description"),
+    author: text("Topic > CreationAuthor"),
+    status: topic.querySelector("Topic")?.getAttribute("TopicStatus") ?? "",
+    date: /^\d{4}-\d\d-\d\d/.exec(text("Topic > CreationDate"))?.[0] ?? "",
+  };
+  return Object.fromEntries(Object.entries(given).filter(([, value]) => value));
+}
+
+/** Pixels of the small picture of a bookmark. */
+export const kSmallPicture: [number, number] = [112, 70];
+
+/** A snapshot in the size of bookmarks, cut to their shape, as a data URL; null: the browser cannot read it. */
+async function smallPicture(bytes: Uint8Array): Promise<string | null> {
+  try {
+    const [width, height] = kSmallPicture;
+    const picture = await createImageBitmap(new Blob([bytes as Uint8Array<ArrayBuffer>]));
+    const canvas = new OffscreenCanvas(width, height);
+    const share = Math.max(width / picture.width, height / picture.height);
+    const [w, h] = [picture.width * share, picture.height * share];
+    canvas.getContext("2d")!.drawImage(picture, (width - w) / 2, (height - h) / 2, w, h);
+    return dataUrl(new Uint8Array(await (await canvas.convertToBlob({ type: "image/png" })).arrayBuffer()));
+  } catch {
+    return null;
+  }
+}
+
+/** A PNG as a data URL. */
+export function dataUrl(png: Uint8Array): string {
   let text = "";
-  for (const byte of picture) text += String.fromCharCode(byte);
-  return `data:image/${kind};base64,${btoa(text)}`;
+  for (const byte of png) text += String.fromCharCode(byte);
+  return `data:image/png;base64,${btoa(text)}`;
 }
 
 function parsed(content: Uint8Array): Document {

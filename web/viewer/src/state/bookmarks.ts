@@ -11,7 +11,14 @@ export interface Bookmark {
   picture?: string;
   /** The day on which it was saved, ISO 8601. */
   date?: string;
+  /** As in topics of BCF. */
+  comment?: string;
+  author?: string;
+  status?: string;
 }
+
+/** The members of a bookmark that are plain text. */
+const kTexts = ["comment", "author", "status"] as const;
 
 const keyOf = (model: string) => `svt-bookmarks:${model}`;
 
@@ -27,12 +34,13 @@ export function loadBookmarks(model: string, store: Storage = localStorage): Boo
 function bookmarksOf(value: unknown): Bookmark[] {
   if (!Array.isArray(value)) return [];
   return value
-    .filter((item): item is { name: string; state: unknown; picture?: unknown; date?: unknown } => typeof item?.name === "string")
-    .map(({ name, state, picture, date }) => ({
+    .filter((item): item is { name: string } & Record<string, unknown> => typeof item?.name === "string")
+    .map(({ name, state, picture, date, ...others }) => ({
       name,
       state: restored(state),
       ...(typeof picture === "string" && kPicture.test(picture) ? { picture } : {}),
       ...(typeof date === "string" && /^\d{4}-\d\d-\d\d$/.test(date) ? { date } : {}),
+      ...Object.fromEntries(kTexts.flatMap((key) => (typeof others[key] === "string" && others[key] ? [[key, others[key]]] : []))),
     }));
 }
 

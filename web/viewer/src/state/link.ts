@@ -8,6 +8,7 @@ import { kSceneMembers, type SceneMember } from "../generated/scene_members";
 import { compacted } from "./compact";
 import type { FeatureIndex } from "./feature_index";
 import { isAllowed, isValueOf, kPlainMembers } from "./member_controls";
+import { isSun } from "./sun";
 import { initialState, type ViewState } from "./view_state";
 
 const kMaxBytes = 4 << 20;
@@ -108,6 +109,7 @@ export function restored(value: unknown): ViewState {
 const kNullable: Record<string, string> = { camera: "object", hatches: "boolean", shell: "string", wireframe: "string", custom: "object" };
 
 function isLike(initial: unknown, given: unknown, key: string): boolean {
+  if (key === "sun") return given === null || isSun(given);
   if (key in kNullable) return given === null || (typeof given === kNullable[key] && (key !== "camera" || isCamera(given)));
   if (key === "measured") return Array.isArray(given) && given.every(isPoint);
   if (Array.isArray(initial))

@@ -38,7 +38,7 @@ describe("controls of scene members", () => {
         declared = kSceneMembers[kRanges[control].member];
       return minimum !== declared.minimum || maximum !== declared.maximum;
     });
-    expect(narrowed).toEqual(["fieldOfView"]);
+    expect(narrowed).toEqual(["fieldOfView", "latitude"]);
     expect(rangeOfControl("opacity")).toEqual({ minimum: 0, maximum: 1, step: 0.01 });
   });
 
@@ -57,7 +57,7 @@ describe("controls of scene members", () => {
     expect(new Set(kViews).size).toBe(kViews.length);
   });
 
-  it("begin with the declared default, but for these", () => {
+  it("begin with the declared default, except these", () => {
     expect(Object.keys(kOtherFirstValues)).toEqual(["pictureSize", "walkingFieldOfView"]);
     for (const { member, value } of Object.values(kOtherFirstValues)) {
       expect(value).not.toEqual(kSceneMembers[member].default);
@@ -67,7 +67,7 @@ describe("controls of scene members", () => {
 
   // Those of the lens, the margin of a cutaway and the place of a plane stand for no member: they end in regions, or in
   // passes that the library makes.
-  it("are all sliders and number fields, but for those that stand for no member", () => {
+  it("are all sliders and number fields, except those that stand for no member", () => {
     const folder = fileURLToPath(new URL("..", import.meta.url));
     const sources = readdirSync(folder, { recursive: true, encoding: "utf8" })
       .filter((name) => name.endsWith(".ts") && !name.endsWith(".test.ts"))

@@ -27,6 +27,9 @@ export const kRanges = {
   // of the picture are distorted.
   fieldOfView: { member: "/camera/fieldOfView", step: 1, minimum: 10, maximum: 100 },
   pictureSide: { member: "/size", step: 1 },
+  // The member has both numbers, of which the first is up to 90 degrees.
+  latitude: { member: "/sun/place", step: 0.0001, minimum: -90, maximum: 90 },
+  longitude: { member: "/sun/place", step: 0.0001 },
 } as const satisfies Record<string, MemberRange>;
 
 /** The values that a control offers. */

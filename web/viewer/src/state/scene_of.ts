@@ -129,6 +129,7 @@ export function sceneOf(
   if (named.length) scene.names = named;
   if (state.colorBy) scene.colorBy = state.colorBy;
   Object.assign(scene, state.picture);
+  if (state.sun) scene.sun = state.sun;
   if (!camera.parallel) delete scene.scaleBar;
   scene.passes = [passOf(state)];
   if (state.custom) return { scene: { ...state.custom, ...scene, passes: state.custom.passes ?? [{}] }, effects: {} };

@@ -80,6 +80,8 @@ export interface ViewState {
   colorBy: string;
   /** Members of the scene without a separate control; members with their defaults are absent. */
   picture: Partial<Pick<Scene, PlainMember>>;
+  /** Light by the sun, with shadows; null: light beside the camera. */
+  sun: NonNullable<Scene["sun"]> | null;
   /** Ids. */
   selection: string[];
   /** The query that selected them; empty: they were selected one by one. */
@@ -110,6 +112,7 @@ export function initialState(look: Look = kSceneMembers["/look"].default): ViewS
     named: [],
     colorBy: "",
     picture: {},
+    sun: null,
     selection: [],
     selectedBy: "",
     measured: [],

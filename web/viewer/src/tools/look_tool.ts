@@ -1,4 +1,4 @@
-/** Look, edges, names, legend, colours by attribute, scale bar and north arrow. */
+/** Look, edges, names, legend, colours by attribute, sun, scale bar and north arrow. */
 
 import { css, html, nothing } from "lit";
 import type { HiddenLines } from "../engine";
@@ -9,6 +9,7 @@ import { withMember } from "../state/view_state";
 import { plainControl } from "../ui/plain_control";
 import { controls, Part } from "../ui/part";
 import { colorChoice } from "./color_choice";
+import "./sun_choice";
 
 const kLooks = kSceneMembers["/look"].choices;
 const kLines = ["off", ...kSceneMembers["/passes/*/lines/*/hidden"].choices] as const;
@@ -38,6 +39,7 @@ export class LookTool extends Part {
         <label class="check"><input type="checkbox" id="legend" .checked=${session.view.isLegendShown} @change=${(e: Event) => (session.view.isLegendShown = (e.target as HTMLInputElement).checked)} />${t("legend")}</label>
       </div>
       ${colorChoice(session)}
+      <svt-sun-choice .session=${session}></svt-sun-choice>
       ${kPlainMembers.map((name) => plainControl(name, picture[name.slice(1) as PlainMember], (value) => session.view.set({ picture: withMember(picture, name, value) })))}
     `;
   }

@@ -56,6 +56,18 @@ export function middleOf(points: Point[]): Point {
   return scale(points.reduce(add, [0, 0, 0] as Point), 1 / Math.max(1, points.length));
 }
 
+/** The part of the box that other planes along its axes keep. @param n  the plane that is not considered */
+export function keptBox(box: Box, sections: readonly Section[], n: number): Box {
+  const low: Point = [...box.low],
+    high: Point = [...box.high];
+  sections.forEach(({ axis, at, flip }, i) => {
+    const k = ["x", "y", "z"].indexOf(axis);
+    if (i === n || k < 0 || axis === sections[n]!.axis || at <= low[k]! || at >= high[k]!) return;
+    (flip ? low : high)[k] = at;
+  });
+  return { ...box, low, high };
+}
+
 /** Moves a plane at the border of the box slightly inside, so that it stays visible. */
 export function keptInside(section: Section, box: Box): Section {
   const [low, high] = rangeOf(section, box);

@@ -6,10 +6,12 @@ import type { View } from "../session/view";
 import { regionOf } from "../state/scene_of";
 import type { Section, SectionAxis } from "../state/view_state";
 import { help, language, number, t } from "../texts";
+import { toolText } from "../tool_texts";
 import { pngOf, save, zipOf } from "../ui/files";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
 import { keptApart, rangeOf } from "./plane_outline";
+import { isSectionBox, sectionBox } from "./section_box";
 
 const kAxes: SectionAxis[] = ["x", "y", "z", "free"];
 const kFormats = ["svg", "dxf", "png", "geojson", "csv"] as const;
@@ -55,11 +57,11 @@ export class SectionTool extends Part {
       output { text-align: right; min-width: 74px; font-variant-numeric: tabular-nums; }
       .typed { display: flex; gap: 4px; align-items: center; justify-content: flex-end; }
       .typed input { width: 82px; text-align: right; padding: 2px 4px; min-height: 28px; font-variant-numeric: tabular-nums; }
-      @media (max-width: 759px), (pointer: coarse) { .typed input { min-height: 44px; } .drawings { flex-wrap: wrap; } .drawings > .grow { flex-basis: 100%; } }
+      @media (max-width: 759px), (pointer: coarse) { .typed input { min-height: 44px; } }
       .head { display: flex; gap: 6px; align-items: center; }
       .head .segments { flex: 1; }
-      .drawings { gap: 4px; }
-      .drawings > .grow { flex-basis: auto; }
+      .drawings { gap: 4px 8px; }
+      .drawings > .grow { flex-basis: 100%; }
       .drawings button { min-height: 28px; padding: 2px 7px; }
       .chips { display: flex; flex-wrap: wrap; gap: 6px; margin: 8px 0; }
     `,
@@ -68,17 +70,40 @@ export class SectionTool extends Part {
   override render() {
     const { session } = this;
     const { sections, hatches, look } = session.view.now;
+    const isBox = isSectionBox(sections);
     const isHatched = hatches ?? (look === "paper" || look === "blueprint");
     return html`
       ${sections.length ? nothing : html`<p class="quiet">${t("sectionHint")}</p>`}
       ${this.storeys()}
-      ${sections.map((section, n) => this.plane(section, n))}
+      ${isBox ? this.box(sections) : sections.map((section, n) => this.plane(section, n))}
       <div class="row">
         <button class=${sections.length ? "" : "loud"} id="add-plane" @click=${() => this.add()}>${icon("plus", 16)}${t("addPlane")}</button>
         <label class="check" title=${help("/hatches/show")}><input type="checkbox" .checked=${isHatched} @change=${(e: Event) => session.view.set({ hatches: (e.target as HTMLInputElement).checked })} />${t("hatches")}</label>
       </div>
+      <div class="row">
+        <button id="plane-by-face" aria-pressed=${session.view.aim === "face"} title=${toolText("faceHint")} @click=${() => (session.view.aim = session.view.aim === "face" ? null : "face")}>${icon("target", 16)}${toolText("planeByFace")}</button>
+        <button id="section-box" aria-pressed=${isBox} title=${toolText("sectionBoxHint")} @click=${() => this.toggleBox(isBox)}>${icon("part", 16)}${toolText("sectionBox")}</button>
+      </div>
       ${this.drawingParts()}
     `;
+  }
+
+  private toggleBox(isBox: boolean): void {
+    const { session } = this;
+    session.view.set({ sections: isBox ? [] : sectionBox(session) });
+    if (!isBox && session.view.state.selection.length) void session.view.goToSelected();
+  }
+
+  /** A section box: from and to along each axis. */
+  private box(sections: readonly Section[]) {
+    const side = (axis: SectionAxis, flip: boolean) => {
+      const n = sections.findIndex((section) => section.axis === axis && section.flip === flip);
+      const section = sections[n]!;
+      const [low, high] = rangeOf(section, this.session.volume.box);
+      const label = toolText(flip ? "boxFrom" : "boxTo", { axis });
+      return this.slider(label, section.at, low, high, 0.01, `${number(section.at, 2)} m`, (at) => this.change(n, { at }));
+    };
+    return html`<div class="plane" role="group" aria-label=${toolText("sectionBox")}>${(["x", "y", "z"] as const).map((axis) => [side(axis, true), side(axis, false)])}</div>`;
   }
 
   private drawingParts() {

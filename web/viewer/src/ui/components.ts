@@ -1,6 +1,5 @@
 /** The Web Awesome components used by the page; loaded after the first picture. */
 
-import "@awesome.me/webawesome/dist/components/color-picker/color-picker.js";
 import "@awesome.me/webawesome/dist/components/dialog/dialog.js";
 import "@awesome.me/webawesome/dist/components/slider/slider.js";
 import "@awesome.me/webawesome/dist/components/split-panel/split-panel.js";

@@ -76,7 +76,7 @@ export const controls = css`
   .segments button { border: 0; border-radius: 0; flex: 1; }
   .segments button + button { border-left: 1px solid var(--line); }
   .segments :focus-visible { outline-offset: -2px; }
-  wa-slider::part(label), wa-color-picker::part(form-control-label) {
+  wa-slider::part(label) {
     position: absolute; width: 1px; height: 1px; margin: 0; overflow: hidden; clip-path: inset(50%); white-space: nowrap;
   }
   @media (max-width: 759px), (pointer: coarse) {
