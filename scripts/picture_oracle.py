@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Makes the table of docs/dev/pictures.md: how far pictures are from the triangles of the model, by an independent ray tracer.
 
-  scripts/picture_oracle.py [MODEL...] [--spacings 0.2,0.1,0.05] [--planes] [--maps FOLDER] [--cameras]
+  scripts/picture_oracle.py [MODEL...] [--spacings 0.2,0.1,0.05] [--planes] [--exact] [--maps FOLDER] [--cameras]
 
 Without models: samples that svt generates, and the models of SVT_DATA_DIR (default ../shared/data) that are there. Each row has
 the errors of eight cameras together; --cameras prints a row for each camera. --maps keeps a picture of the errors of each camera.
-Needs svt_picture_oracle (tests/pictures), which the build makes where Embree is installed (scripts/setup.sh readers).
+--exact measures the pictures of `svt render --surfaces exact`. Needs svt_picture_oracle (tests/pictures), which the build makes
+where Embree is installed (scripts/setup.sh readers).
 """
 import argparse
 import json
@@ -48,8 +49,7 @@ def models(folder):
 
 def rows(model, spacing, arguments):
     command = [str(BIN / "svt_picture_oracle"), str(model), "--spacing", str(spacing), "--size", arguments.size]
-    if arguments.planes:
-        command.append("--planes")
+    command += [option for option in ("--planes", "--exact") if getattr(arguments, option[2:])]
     if arguments.maps:
         command += ["--maps", str(arguments.maps / f"{model.stem}_{spacing}")]
     done = subprocess.run(command, capture_output=True, text=True)
@@ -72,6 +72,7 @@ def main():
     parser.add_argument("--spacings", default="0.2,0.1,0.05", help="metres, with commas")
     parser.add_argument("--size", default="480x300", help="pixels")
     parser.add_argument("--planes", action="store_true", help="borders parallel to an axis at the model's faces, too")
+    parser.add_argument("--exact", action="store_true", help="labels by the faces of the model (--surfaces exact)")
     parser.add_argument("--maps", type=Path, help="folder for a picture of the errors of each camera")
     parser.add_argument("--cameras", action="store_true", help="a row for each camera")
     arguments = parser.parse_args()

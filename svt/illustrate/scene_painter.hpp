@@ -49,6 +49,11 @@ public:
     /// From now on reports the stage "prepare" to `progress` while a representation of the volume is made; may be null.
     void reportTo(const Progress* progress) noexcept { progress_ = progress; }
 
+    /// From now on the runs of rays through the volume come from `source`, such as a render::FaceModel, at its finest
+    /// level. Hulls, cells, coarse levels, details and storeys that are drawn apart keep their bricks.
+    /// \param source  of the painter's volume; must outlive the painter
+    void drawBy(const render::RunSource* source) noexcept { source_ = source; }
+
     /// From now on `detail` replaces the same part of the volume, see details.hpp. Drafts ignore it.
     /// \param detail  processed by joinLabels(); must outlive the painter
     void addDetail(const volume::SemanticVolume& detail);
@@ -116,6 +121,7 @@ private:
     int threads_;
     std::vector<std::string>* nothing_ = nullptr;
     const Progress* progress_ = nullptr;
+    const render::RunSource* source_ = nullptr;  // null: the bricks
     std::vector<std::unique_ptr<Representations>> representations_;
     std::unique_ptr<Apart> apart_;
     struct Detail {

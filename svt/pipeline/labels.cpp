@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string_view>
+#include <tuple>
 
 namespace svt::pipeline {
 namespace {
@@ -112,6 +114,11 @@ std::optional<float> materialOpacity(const volume::Label& label, const mesh::Obj
 
 bool isPane(const volume::Label& label) { return model::isPhase(label.className) && label.name == model::kGlass; }
 
+// Panes are finer than the surfaces of their windows, which lie on them.
+model::ClassRank rankOf(const volume::Label& label) {
+    return isPane(label) ? model::ClassRank::Furniture : model::classRank(label.className);
+}
+
 // The surfaces of windows that bound rooms lie before and behind panes: they are clear where the model has panes.
 void clearWindowSurfaces(const volume::LabelTable& table, const std::vector<std::optional<Vec3f>>& colors,
                          double thinnest, std::vector<std::optional<float>>& opacities) {
@@ -197,9 +204,8 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
     for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
         const std::uint32_t l = result.labelOfObject[o];
         const volume::Label& label = table.labels[l];
-        // Panes are finer than the surfaces of their windows, which lie on them.
-        const model::ClassRank rank = isPane(label) ? model::ClassRank::Furniture : model::classRank(label.className);
-        result.claims[o] = {label.first, static_cast<std::uint8_t>(rank), label.id, bodyOf(table, objectOf, meshes, l)};
+        result.claims[o] = {label.first, static_cast<std::uint8_t>(rankOf(label)), label.id,
+                            bodyOf(table, objectOf, meshes, l)};
         if (hasPattern)
             for (volume::Scalar s = 0; s < label.count; ++s)
                 table.phaseColors[label.first + s] =
@@ -208,6 +214,22 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
             result.patterns.push_back({label.first, styles[l].pattern, voxelize::dominantAxes(meshes.objects[o])});
     }
     return result;
+}
+
+std::vector<std::uint32_t> labelsByPriority(const volume::LabelTable& table) {
+    using Key = std::tuple<model::ClassRank, bool, double, std::string_view, std::uint32_t>;
+    std::vector<Key> keys;
+    keys.reserve(table.labels.size());
+    for (std::uint32_t l = 0; l < table.labels.size(); ++l) {
+        const volume::Label& label = table.labels[l];
+        const bool isSolid = label.filling >= volume::Filling::Solid && label.filling <= volume::Filling::Capped;
+        const double size = isSolid && label.volume > 0 ? label.volume : 0;
+        keys.emplace_back(rankOf(label), !isSolid, size, label.id, l);
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<std::uint32_t> order;
+    for (const Key& key : keys) order.push_back(std::get<std::uint32_t>(key));
+    return order;
 }
 
 }  // namespace svt::pipeline

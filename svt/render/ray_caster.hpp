@@ -7,6 +7,7 @@
 #include <svt/core/result.hpp>
 #include <svt/image/image.hpp>
 #include <svt/render/frame_spec.hpp>
+#include <svt/render/run_source.hpp>
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/grid.hpp>
 #include <svt/volume/lod_pyramid.hpp>
@@ -41,7 +42,10 @@ struct Frame {
 class DrawnVolume {
 public:
     /// \param grid  where the samples of `bricks` lie; its dimension must be that of `bricks`
-    DrawnVolume(const volume::BrickVolume& bricks, const volume::Grid& grid) : bricks_(&bricks), grid_(&grid) {}
+    /// \param source  of the runs of rays, such as a FaceModel; null: the bricks. A frame with a source casts one ray after
+    ///                the other, without packets. Ambient occlusion comes from the bricks. Must outlive this.
+    DrawnVolume(const volume::BrickVolume& bricks, const volume::Grid& grid, const RunSource* source = nullptr)
+        : bricks_(&bricks), grid_(&grid), source_(source) {}
     /// A coarse level.
     ///
     /// A cell has the extinction and colour of its labels, weighted by coverage (Al-Thelaya 2020). An opaque label
@@ -53,11 +57,13 @@ public:
     [[nodiscard]] const volume::BrickVolume& bricks() const noexcept { return *bricks_; }
     [[nodiscard]] const volume::Grid& grid() const noexcept { return *grid_; }
     [[nodiscard]] const volume::LodLevel* level() const noexcept { return level_; }  ///< null: full resolution
+    [[nodiscard]] const RunSource* source() const noexcept { return source_; }       ///< null: the bricks
 
 private:
     const volume::BrickVolume* bricks_;
     const volume::Grid* grid_;
     const volume::LodLevel* level_ = nullptr;
+    const RunSource* source_ = nullptr;
 };
 
 /// Draws `volumes` as described by `spec`; Pass::volume is the index of the volume that a pass draws.

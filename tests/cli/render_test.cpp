@@ -268,6 +268,46 @@ TEST_F(SmallHouse, WithoutLinesAndMeshesTheRemedyIsNamed) {
     }
 }
 
+TEST_F(SmallHouse, ExactSurfacesAreThoseOfTheModelAndItsVolume) {
+    const std::vector<std::string> options{"--surfaces", "exact", "--section", "y<5", "--hide", "class=BuildingRoom"};
+    const auto ofVolume = draw(options);
+    std::vector<std::string> arguments{"render", "house.gml", "-o", "p.png", "--size", "160x90", "--spacing", "0.2"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const CommandResult result = runSvt(folder.path(), arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.toString();
+    EXPECT_EQ(result.err.find("exact surfaces"), std::string::npos) << "all features have closed meshes";
+    const auto ofModel = image::readPng(folder / "p.png");
+    ASSERT_TRUE(ofModel);
+    EXPECT_EQ(*ofModel, ofVolume);
+    EXPECT_NE(draw({"--section", "y<5", "--hide", "class=BuildingRoom"}), ofVolume);
+    EXPECT_NE(draw({"--surfaces", "exact"}), ofVolume);
+}
+
+TEST_F(SmallHouse, FeaturesWithoutExactSurfaceAreCounted) {
+    const CommandResult result = runSvt(folder.path(), {"render", "house.gml", "-o", "p.png", "--spacing", "0.2",
+                                                        "--surfaces", "exact", "--size", "160x90", "--patterns"});
+    EXPECT_EQ(result.exitCode, 0) << result.toString();
+    EXPECT_NE(result.err.find("have no closed mesh, a pattern"), std::string::npos) << result.toString();
+}
+
+TEST_F(SmallHouse, ExactSurfacesRefuseWhatNeedsVoxels) {
+    const auto refused = [&](const std::vector<std::string>& more, const char* text) {
+        std::vector<std::string> words{"render", "house.svt", "-o", "q.png", "--surfaces", "exact"};
+        words.insert(words.end(), more.begin(), more.end());
+        const CommandResult result = runSvt(folder.path(), words);
+        EXPECT_EQ(result.exitCode, 2) << result.toString();
+        EXPECT_NE(result.err.find(text), std::string::npos) << result.toString();
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / "q.png"));
+    };
+    refused({"--gl"}, "--surfaces exact does not support --gl");
+    refused({"--cells"}, "--surfaces exact does not support --cells");
+    refused({"--level", "2"}, "--surfaces exact does not support --level");
+    refused({"--explode", "3"}, "--surfaces exact does not support --explode");
+    refused({"--with", "house.svt"}, "--surfaces exact does not support --with");
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2", "--vectors", "none"});
+    refused({}, "--vectors meshes");
+}
+
 TEST_F(SmallHouse, ASizeInMillimetresIsToldToThePrinter) {
     const auto perMetre = [&] {
         const std::string bytes = readText(folder / "p.png");

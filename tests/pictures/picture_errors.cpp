@@ -7,11 +7,13 @@
 #include <svt/model/phases.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/render/camera_presets.hpp>
+#include <svt/render/face_model.hpp>
 #include <svt/render/ray_caster.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 
@@ -58,6 +60,7 @@ struct Drawn {
     const volume::SemanticVolume& volume;
     const volume::BrickVolume& bricks;
     std::vector<char> isHidden;  ///< by scalar
+    const render::RunSource* faces = nullptr;
 };
 
 render::FrameSpec frameOf(const Drawn& drawn, const View& view, const PictureOptions& options) {
@@ -98,7 +101,7 @@ Result<Picture> draw(const Drawn& drawn, const View& view, const PictureOptions&
         const int axis = side / 2;
         spec.light.direction = {};
         spec.light.direction[axis] = side % 2 == 0 ? 1 : -1;
-        SVT_TRY(frame, render::castRays(drawn.bricks, drawn.volume.grid, spec));
+        SVT_TRY(frame, render::castRays(render::DrawnVolume(drawn.bricks, drawn.volume.grid, drawn.faces), spec));
         for (std::size_t p = 0; p < frame->color.pixels().size(); ++p) {
             const auto gray = static_cast<float>(frame->color.pixels()[p].g) / 255;
             const double share = static_cast<double>(image::linearFromSrgb(gray));
@@ -180,6 +183,7 @@ Result<std::vector<PictureErrors>> measurePictures(const model::BuildingModel& g
     model::BuildingModel model = given;
     pipeline::BuildOptions build;
     build.spacing = Vec3d{options.spacing, options.spacing, options.spacing};
+    build.vectors.meshes = options.isExact;
     SVT_TRY(built, pipeline::buildVolume(model, build));
     const volume::SemanticVolume& volume = built->volume;
     SVT_TRY(bricks,
@@ -196,7 +200,12 @@ Result<std::vector<PictureErrors>> measurePictures(const model::BuildingModel& g
     isHidden[0] = 1;  // background
     for (const volume::Label& label : volume.labels.labels)
         if (model::isSpace(label.className)) std::fill_n(isHidden.begin() + label.first, label.count, char{1});
-    const Drawn drawn{volume, *bricks, isHidden};
+    std::unique_ptr<render::FaceModel> faces;
+    if (options.isExact) {
+        SVT_TRY(made, render::FaceModel::make(volume, pipeline::labelsByPriority(volume.labels)));
+        faces = std::move(*made);
+    }
+    const Drawn drawn{volume, *bricks, isHidden, faces.get()};
     const MeshTracer tracer(*meshes, *labelled, volume.labels, isHidden);
     const Box3d bounds{meshes->bounds.min + meshes->origin, meshes->bounds.max + meshes->origin};
     SVT_TRY(views, viewsOf(bounds, options));

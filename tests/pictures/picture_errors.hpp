@@ -36,6 +36,7 @@ struct PictureOptions {
     double spacing = 0.05;  ///< metres
     int width = 480, height = 300;
     volume::BrickFaces faces = volume::BrickFaces::Slopes;  ///< as in pictures of the command
+    bool isExact = false;                                   ///< by the faces of the model (render::FaceModel)
 };
 
 /// Builds the volume of a model, and compares its pictures with the triangles, camera by camera. Spaces are not drawn,

@@ -1,10 +1,11 @@
 /// \file
 /// Measures pictures of a model against its triangles; scripts/picture_oracle.py makes tables of its output.
 ///
-///   svt_picture_oracle MODEL [--spacing 0.05] [--size 480x300] [--planes] [--maps FOLDER]
+///   svt_picture_oracle MODEL [--spacing 0.05] [--size 480x300] [--planes] [--exact] [--maps FOLDER]
 ///
 /// Prints JSON: a row for each camera, and one for all. --maps writes a picture of the errors for each camera.
-/// --planes draws borders that are parallel to an axis at the model's faces, too (BrickFaces::Planes).
+/// --planes draws borders that are parallel to an axis at the model's faces, too (BrickFaces::Planes). --exact finds
+/// labels by the faces themselves (render::FaceModel), as `svt render --surfaces exact`.
 
 #include "picture_errors.hpp"
 
@@ -35,6 +36,8 @@ Arguments parse(const std::vector<std::string>& words) {
         const std::string next = n + 1 < words.size() ? words[n + 1] : "";
         if (word == "--planes") {
             arguments.options.faces = volume::BrickFaces::Planes;
+        } else if (word == "--exact") {
+            arguments.options.isExact = true;
         } else if (word == "--spacing") {
             arguments.options.spacing = std::atof(next.c_str());
             ++n;

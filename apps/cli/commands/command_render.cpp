@@ -22,7 +22,9 @@
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/illustrate/sun.hpp>
 #include <svt/image/png.hpp>
+#include <svt/pipeline/labels.hpp>
 #include <svt/readers/owner_table.hpp>
+#include <svt/render/face_model.hpp>
 #include <svt/render/frame_buffers.hpp>
 #include <svt/render_gl/egl_context.hpp>
 #include <svt/render_gl/gl_renderer.hpp>
@@ -34,6 +36,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -41,12 +44,19 @@
 namespace svt::cli {
 namespace {
 
+// The source of the labels of pictures.
+enum class SurfaceSource : std::uint8_t { Voxels, Exact };
+constexpr auto namesOf(SurfaceSource) {
+    return std::to_array<Name<SurfaceSource>>({{SurfaceSource::Voxels, "voxels"}, {SurfaceSource::Exact, "exact"}});
+}
+
 struct RenderArguments {
     std::vector<std::filesystem::path> with;
     std::filesystem::path owners, input, output, labelOutput, depthOutput, sceneOutput;
     pipeline::BuildOptions build;
     frontend::SceneOptions scene;
     int frames = 1;
+    SurfaceSource surfaces = SurfaceSource::Voxels;
     bool gl = false;
     bool verbose = false;
 };
@@ -82,7 +92,7 @@ private:
     const volume::BrickVolume* drawn_ = nullptr;
 };
 
-// Sets the finest level for every pass without a level. OpenGL draws only this level.
+// Sets the finest level for every pass without a level. OpenGL and exact surfaces draw only this level.
 void takeFinest(illustrate::Scene& scene) {
     for (illustrate::ScenePass& pass : scene.passes)
         if (!pass.representation.level) pass.representation.level = 0;
@@ -147,7 +157,9 @@ bool isEmpty(const render::Frame& frame) {
 }
 
 // Options to keep the vector data of the model that a scene needs.
-pipeline::BuildOptions withVectors(pipeline::BuildOptions build, const illustrate::Scene& scene) {
+pipeline::BuildOptions withVectors(const RenderArguments& arguments, const illustrate::Scene& scene) {
+    pipeline::BuildOptions build = arguments.build;
+    build.vectors.meshes = build.vectors.meshes || arguments.surfaces == SurfaceSource::Exact;
     for (const illustrate::ScenePass& pass : scene.passes) {
         build.vectors.edges = build.vectors.edges || !pass.lines.empty();
         build.vectors.meshes = build.vectors.meshes || !pass.meshes.empty();
@@ -272,6 +284,39 @@ Result<void> checkForLines(const RenderArguments& arguments, const illustrate::S
                  fmt::format("line drawings do not support {}; leave it out, or write a .png", fmt::join(found, ", ")));
 }
 
+// Refuses parts of a scene that are drawn only from voxels.
+Result<void> checkForExact(const RenderArguments& arguments, const illustrate::Scene& scene) {
+    if (arguments.surfaces != SurfaceSource::Exact) return {};
+    const auto has = [&](const auto& isOne) { return std::any_of(scene.passes.begin(), scene.passes.end(), isOne); };
+    const std::pair<bool, const char*> needs[] = {
+        {isLineDrawing(arguments.output), "-o .svg or .pdf, which draw the faces already"},
+        {arguments.gl, "--gl"},
+        {!arguments.with.empty(), "--with"},
+        {isCity(arguments.input), "a city"},
+        {scene.explode != 0, "--explode (explode of a scene)"},
+        {has([](const auto& pass) { return pass.representation.hasCells; }), "--cells (cells of a scene)"},
+        {has([](const auto& pass) { return pass.representation.level.value_or(0) != 0; }),
+         "--level (level of a scene)"}};
+    for (const auto& [isGiven, option] : needs)
+        if (isGiven)
+            return Error(Code::BadArgument,
+                         fmt::format("--surfaces exact does not support {}; leave out one of the two", option));
+    return {};
+}
+
+// The faces of the model, for exact pictures; null if voxels give the labels.
+Result<std::unique_ptr<render::FaceModel>> facesFor(const RenderArguments& arguments,
+                                                    const volume::SemanticVolume& volume) {
+    if (arguments.surfaces != SurfaceSource::Exact) return std::unique_ptr<render::FaceModel>();
+    SVT_TRY(faces, render::FaceModel::make(volume, pipeline::labelsByPriority(volume.labels)));
+    if (const auto& counts = (*faces)->counts(); counts.byVoxels > 0)
+        note(
+            fmt::format("exact surfaces: {} of {} features have no closed mesh, a pattern, or material divided among "
+                        "surfaces; voxels show them",
+                        counts.byVoxels, counts.byVoxels + counts.solids + counts.sheets));
+    return std::move(*faces);
+}
+
 // Draws and writes the picture of a scene.
 using DrawPicture = std::function<Result<void>(illustrate::Scene& scene, int number)>;
 
@@ -367,7 +412,7 @@ Result<int> runCityRender(const RenderArguments& arguments, Series& series, cons
 Result<int> runVolumeRender(const RenderArguments& arguments, Series& series, const illustrate::Scene& moving) {
     Diagnostics diagnostics;
     TerminalProgress progress;
-    auto volume = loadVolume(arguments.input, withVectors(arguments.build, moving), progress.get(), diagnostics);
+    auto volume = loadVolume(arguments.input, withVectors(arguments, moving), progress.get(), diagnostics);
     if (!volume) printDiagnostics(diagnostics, arguments.verbose);
     if (!volume) return volume.error();
     const auto details = addInputs(arguments, progress.get(), diagnostics, *volume);
@@ -380,13 +425,15 @@ Result<int> runVolumeRender(const RenderArguments& arguments, Series& series, co
     painter.tolerateNothing(&nothing);
     painter.reportTo(progress.get());
     for (const volume::SemanticVolume& detail : *details) painter.addDetail(detail);
+    SVT_TRY(faces, facesFor(arguments, *volume));
+    painter.drawBy(faces->get());
     GlDrawer gl(arguments.build.threads);
     const illustrate::ScenePainter::Draw drawByGl = [&](auto volumes, const auto& spec) {
         return gl.draw(volumes, spec);
     };
     int empty = 0;
     const auto draw = [&](illustrate::Scene& scene, int number) -> Result<void> {
-        if (arguments.gl) takeFinest(scene);
+        if (arguments.gl || *faces) takeFinest(scene);
         SVT_TRY(painting,
                 arguments.gl ? painter.paint(scene, drawByGl) : painter.paint(scene, castOptions(arguments, progress)));
         empty += isEmpty(painting->frame);
@@ -411,6 +458,7 @@ Result<int> runRender(const RenderArguments& arguments) {
     // Validate the request before any long work.
     SVT_TRY(moving, arguments.scene.toScene(isFilm(arguments.output) ? std::nullopt : std::optional(arguments.frames)));
     SVT_TRY(series, seriesOf(arguments, *moving));
+    SVT_DO(checkForExact(arguments, *moving));
     if (isCity(arguments.input)) return runCityRender(arguments, *series, *moving);
     if (isLineDrawing(arguments.output)) return runLineDrawing(arguments, *series, *moving);
     return runVolumeRender(arguments, *series, *moving);
@@ -443,6 +491,11 @@ Members<RenderArguments> membersOf(const RenderArguments*) noexcept {
         member<&All::frames>("--frames",
                              "number of pictures P_0000.png, ... of a section that moves, or of the scene's motion",
                              {.least = 1, .most = 10000, .group = "Motion"}),
+        member<&All::surfaces>(
+            "--surfaces",
+            "the source of the labels: the voxels, or the faces of the model, which are exact at any "
+            "spacing, but take several times as long",
+            {.group = "Output"}),
         member<&All::gl>("--gl", "draw the finest level with OpenGL ES 3.0; needs a driver, but no display",
                          {.group = "Output", .excludes = "--level"}),
         member<&All::labelOutput>(

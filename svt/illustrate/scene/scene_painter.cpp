@@ -146,7 +146,8 @@ Result<render::DrawnVolume> ScenePainter::representationOf(std::size_t number, c
         SVT_TRY(made, volume::BrickVolume::fromColumns(volume.columns, options));
         bricks = std::move(*made);
     }
-    return render::DrawnVolume(*bricks, volume.grid);
+    const bool isBySource = number == 0 && !wanted.shell && !wanted.hasCells;
+    return render::DrawnVolume(*bricks, volume.grid, isBySource ? source_ : nullptr);
 }
 
 void ScenePainter::addDetail(const volume::SemanticVolume& detail) {

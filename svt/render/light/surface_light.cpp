@@ -36,6 +36,10 @@ Surface SurfaceLight::findNormal(const LinearStyle& style, const SurfaceHit& hit
         found.outwardIndex = volume_.directions.outwardIndex(found.normal);
         isAway = dot(found.normal, hit.view) < 0;
         surface.isCap = true;
+    } else if (hit.faceNormal != nullptr) {
+        found.normal = *hit.faceNormal;
+        found.outwardIndex = volume_.directions.outwardIndex(found.normal);
+        isAway = dot(found.normal, hit.view) < 0;
     } else if (hit.plane != volume::BrickVolume::kNoPlane) {
         found = volume_.directions.plane(hit.plane);
         isAway = dot(volume_.bricks.planes()[hit.plane].normal, hit.direction) > 0;

@@ -18,6 +18,8 @@ struct SurfaceHit {
     std::uint32_t plane;      ///< oblique plane that it crosses there, or BrickVolume::kNoPlane
     bool isVoxel;             ///< the brick is one of voxels only
     CapFace cap;              ///< the clip face that it lies on, or none
+    /// Normal of the face of the model that it lies on, world space, unit length, of either sign; null: none.
+    const Vec3d* faceNormal = nullptr;
 };
 
 /// The surface at the start of a run, and its lighting.

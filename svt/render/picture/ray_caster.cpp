@@ -73,7 +73,8 @@ bool arePixelsFine(const CameraRays& rays, const volume::Grid& grid, const Frame
 
 PassTable tableOf(const Pass& pass, const FrameSpec& spec, const DrawnVolume& volume) {
     if (volume.level() != nullptr) return PassTable(pass, spec.objectOfScalar, *volume.level());
-    return PassTable(pass, spec.objectOfScalar, volume.bricks().scalarCount());
+    const std::uint64_t ofSource = volume.source() == nullptr ? 0 : volume.source()->scalarCount();
+    return PassTable(pass, spec.objectOfScalar, std::max(volume.bricks().scalarCount(), ofSource));
 }
 
 Result<PreparedPass> preparedPass(const Pass& pass, const PreparedFrame& frame, const DrawnVolume& drawn) {
@@ -129,8 +130,10 @@ Result<Frame> castFrame(std::span<const DrawnVolume> volumes, const FrameSpec& s
     SVT_DO(checkCall(volumes, spec, options));
     SVT_TRY(prepared, prepareFrame(volumes, spec, options, isReference));
     const PreparedFrame& frame = *prepared;
+    const bool isByPackets = !isReference && std::none_of(frame.volumes.begin(), frame.volumes.end(),
+                                                          [](const auto& volume) { return volume.source != nullptr; });
     std::optional<PacketPasses> packets;
-    if (!isReference) packets.emplace(frame);
+    if (isByPackets) packets.emplace(frame);
     Frame picture;
     // In parallel: the time to touch new memory matters in fast frames.
     parallelFor(3, 1, options.threads, [&](std::size_t begin, std::size_t end) {

@@ -35,6 +35,7 @@ TileRenderer::TileRenderer(const PreparedFrame& frame, const PacketPasses* packe
     : frame_(frame),
       picture_(picture),
       caster_(frame),
+      isAdaptive_(frame.isAdaptive && !frame.isReference),
       layout_(frame.spec),
       stride_(kTilePixels * layout_.side + 2 * layout_.margin),
       backgroundTop_(image::linearFromSrgb(frame.spec.background.top)),
@@ -79,11 +80,12 @@ void TileRenderer::render(std::int32_t x, std::int32_t y) {
 }
 
 void TileRenderer::castSamples() {
+    if (isAdaptive_ && layout_.side > 1) {
+        castAdaptively();
+        return;
+    }
     if (packets_) {
-        if (layout_.side > 1 && frame_.isAdaptive)
-            castAdaptively();
-        else
-            castPackets();
+        castPackets();
         return;
     }
     for (std::int32_t y = -layout_.margin; y < tileHeight_ * layout_.side + layout_.margin; ++y)
@@ -97,6 +99,13 @@ void TileRenderer::castGrid(const RayGrid& grid, std::vector<Sample>& samples) {
     rows_.clear();
     for (std::int32_t x = 0; x < grid.width; ++x) columns_.push_back(horizontal(grid.first + x * grid.step));
     for (std::int32_t y = 0; y < grid.height; ++y) rows_.push_back(vertical(grid.first + y * grid.step));
+    if (!packets_) {
+        for (std::int32_t y = 0; y < grid.height; ++y)
+            for (std::int32_t x = 0; x < grid.width; ++x)
+                samples[static_cast<std::size_t>(x + y * grid.stride)] =
+                    caster_.cast(columns_[static_cast<std::size_t>(x)], rows_[static_cast<std::size_t>(y)], true);
+        return;
+    }
     const auto castBlock = [&](std::int32_t x0, std::int32_t y0) {
         const std::int32_t endX = std::min(x0 + kPacketWidth, grid.width);
         const std::int32_t endY = std::min(y0 + kPacketHeight, grid.height);
@@ -136,11 +145,16 @@ void TileRenderer::castAdaptively() {
                         samples_[at(sx, sy)] = pixels_[middleOf(x, y)];
                         continue;
                     }
-                    packets_->add(horizontal(sx + 0.5), vertical(sy + 0.5), at(sx, sy));
+                    const double u = horizontal(sx + 0.5), v = vertical(sy + 0.5);
+                    if (!packets_) {
+                        samples_[at(sx, sy)] = caster_.cast(u, v, true);
+                        continue;
+                    }
+                    packets_->add(u, v, at(sx, sy));
                     if (packets_->isFull()) packets_->cast(true, samples_);
                 }
         }
-    packets_->cast(true, samples_);
+    if (packets_) packets_->cast(true, samples_);
 }
 
 // Casts rays through the centres of pixels, for adaptive sampling.
@@ -261,7 +275,7 @@ void TileRenderer::fillBackground() {
 
 void TileRenderer::writePixels() {
     const bool isOdd = layout_.side % 2 == 1;
-    const bool isAdaptive = packets_ && frame_.isAdaptive;
+    const bool isAdaptive = isAdaptive_;
     if (!isOdd && !isAdaptive) castCenters();
     const auto centerOf = [&](std::int32_t x, std::int32_t y) -> const Sample& {
         if (isOdd) return samples_[at(x * layout_.side + layout_.side / 2, y * layout_.side + layout_.side / 2)];

@@ -91,6 +91,7 @@ private:
     const PreparedFrame& frame_;
     Frame& picture_;
     SampleCaster caster_;
+    bool isAdaptive_;
     std::optional<PacketCaster> packets_;
     SampleLayout layout_;
     std::int32_t stride_;

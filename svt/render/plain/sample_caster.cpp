@@ -59,7 +59,7 @@ public:
             surface_ = surfaceLight_.at(
                 style, {from, ray_.voxelRay.origin, ray_.voxelRay.direction, normalized(-ray_.direction), start.voxel,
                         ray_.voxelRay.entryAxis(from, start.voxel), start.plane, start.isVoxel,
-                        from == interval_->from ? interval_->cap : CapFace{}});
+                        from == interval_->from ? interval_->cap : CapFace{}, start.normal});
         if (style.kind == Kind::Translucent) return false;
         add(style, 1, from);
         hasEnded_ = true;
@@ -150,6 +150,21 @@ private:
     double transmittance_ = 1, lines_ = 1;  // transmittance of voxels and surfaces, and of lines
 };
 
+// Shades the runs of a RunSource.
+class SourceShader final : public RunVisitor {
+public:
+    SourceShader(const PassTable& table, RunShader& shader) : table_(table), shader_(shader) {}
+    [[nodiscard]] bool isDrawn(volume::Scalar scalar) const override { return table_[scalar].kind != Kind::Hidden; }
+    bool enter(volume::Scalar scalar, double from, const RunStart& start) override {
+        return shader_.enter(scalar, from, start);
+    }
+    bool leave(volume::Scalar scalar, double from, double to) override { return shader_.leave(scalar, from, to); }
+
+private:
+    const PassTable& table_;
+    RunShader& shader_;
+};
+
 }  // namespace
 
 SampleCaster::SampleCaster(const PreparedFrame& frame)
@@ -179,7 +194,10 @@ Sample SampleCaster::cast(double u, double v, bool withColor) {
             interval.to = std::min(interval.to, end);
             if (!(interval.from < interval.to)) break;
             shader.beginInterval(interval);
-            if (frame_.isReference)
+            if (volume.source != nullptr) {
+                SourceShader runs(pass.table, shader);
+                volume.source->walk(volume.bricks, ray.voxelRay, ray.metresPerT, interval.from, interval.to, runs);
+            } else if (frame_.isReference)
                 walkRunsReference(volume.bricks, ray.voxelRay, interval.from, interval.to, shader);
             else
                 walkRuns(volume.bricks, ray.voxelRay, interval.from, interval.to, shader);

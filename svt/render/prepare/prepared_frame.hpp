@@ -52,14 +52,16 @@ struct PreparedVolume {
     const volume::Grid& grid;
     CameraRays rays;
     DirectionTable directions;
-    double voxelSize;  ///< metres, the largest spacing
+    double voxelSize;         ///< metres, the largest spacing
+    const RunSource* source;  ///< of the runs of rays; null: the bricks
 
     PreparedVolume(const DrawnVolume& drawn, const FrameSpec& spec)
         : bricks(drawn.bricks()),
           grid(drawn.grid()),
           rays(spec, grid),
           directions(bricks, grid),
-          voxelSize(std::max({grid.spacing().x, grid.spacing().y, grid.spacing().z})) {}
+          voxelSize(std::max({grid.spacing().x, grid.spacing().y, grid.spacing().z})),
+          source(drawn.source()) {}
 };
 
 /// A frame, prepared for all rays.

@@ -8,6 +8,7 @@
 /// walkRuns() crosses whole boxes at once; walkRunsReference() steps from voxel to voxel. Both visit the same runs, to
 /// the last bit, since both decide only by VoxelRay::planeTime().
 
+#include <svt/render/run_source.hpp>
 #include <svt/render/voxel_ray.hpp>
 #include <svt/render/walk/plane_crossing.hpp>
 #include <svt/volume/brick_volume.hpp>
@@ -18,14 +19,6 @@
 #include <cstdint>
 
 namespace svt::render {
-
-/// The start of a run: its voxel; the oblique plane that the ray crosses there, or whose seam it is on; and whether the
-/// brick is one of voxels only.
-struct RunStart {
-    Vec3i voxel;
-    std::uint32_t plane = volume::BrickVolume::kNoPlane;
-    bool isVoxel = false;
-};
 
 /// Walks [from, to) of the ray, which must lie in spanInVolume(), and calls `visitor` for each run of one scalar.
 ///     bool enter(Scalar, double from, RunStart)        at its start; true ends the walk.

@@ -950,6 +950,63 @@ private:
         return std::find(palette.begin(), palette.end(), scalar) != palette.end();
     }
 
+    // The label that rays find at a point of a brick. Voxels of the volume.
+    [[nodiscard]] Scalar labelAt(Vec3i at, Vec3d point) const noexcept {
+        const BrickCode* code = codeAt(at);
+        if (code == nullptr) {
+            if (!isMixed(at)) return places_.scalarOf[place(at)];
+            std::array<int, 3> voxel{};
+            for (int axis = 0; axis < 3; ++axis)
+                voxel[std::size_t(axis)] = static_cast<int>(std::clamp(point[axis] - corner(at)[axis], 0.0, 7.0));
+            const BrickPattern& pattern = patternAt(at);
+            std::size_t index = 0;
+            for (std::size_t p = 0; 8 * p < pattern.bitPlanes.size(); ++p)
+                index |= ((pattern.bitPlanes[8 * p + std::size_t(voxel[2])] >> (voxel[0] + 8 * voxel[1])) & 1u) << p;
+            return pattern.palette[index];
+        }
+        std::size_t side = 0, bit = 0;
+        const auto addPlane = [&](std::uint32_t number) {
+            if (number != BrickVolume::kNoPlane)
+                side |= std::size_t{valueAt(result_.planes[number], point) > 0} << bit++;
+        };
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::uint8_t cut = code->cut[std::size_t(axis)];
+            if (cut != 0)
+                side |= std::size_t{point[axis] >= corner(at)[axis] + cut} << bit++;
+            else
+                addPlane(code->cutPlane[std::size_t(axis)]);
+        }
+        for (const std::uint32_t number : code->plane) addPlane(number);
+        return code->sideScalars[side];
+    }
+
+    // Whether the brick `next` has the label beside the sliver that the plane cuts from its neighbour `at`. The sliver
+    // meets their common face in a triangle, or a part of one; three points of it are tested.
+    [[nodiscard]] bool isBesideSliver(const BrickPlane& plane, Vec3i at, Vec3i next, bool isPositive,
+                                      Scalar scalar) const noexcept {
+        constexpr double kSize = BrickVolume::kBrickSize;
+        Vec3d tip;  // the corner of the face that lies farthest beyond the plane
+        Vec3d inwards{};
+        for (int axis = 0; axis < 3; ++axis) {
+            const double low = std::max(corner(at)[axis], corner(next)[axis]);
+            const double high = std::min(corner(at)[axis], corner(next)[axis]) + kSize;
+            const bool isHigh = (plane.normal[axis] > 0) == isPositive;
+            tip[axis] = isHigh ? high : low;
+            if (high > low) inwards[axis] = isHigh ? -1 : 1;
+        }
+        const double depth = std::abs(valueAt(plane, tip));
+        std::array<Vec3d, 2> sides;  // from the tip along the edges of the face, to the plane or the next corner
+        std::size_t count = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (inwards[axis] == 0) continue;
+            Vec3d& side = sides[count++];
+            side[axis] = inwards[axis] * std::min(kSize, depth / std::max(std::abs(plane.normal[axis]), 1e-9));
+        }
+        for (const auto& [a, b] : {std::array{0.3, 0.3}, std::array{0.8, 0.1}, std::array{0.1, 0.8}})
+            if (labelAt(next, tip + sides[0] * a + sides[1] * b) == scalar) return true;
+        return false;
+    }
+
     // Whether a surface on the plane reaches a uniform brick, so that the sliver on the other side of the plane has a
     // neighbour with its label. Beyond the end of a surface, its plane may cut a corner of a brick of air.
     [[nodiscard]] bool isReached(const BrickPlane& plane, Vec3i at, bool isPositive, Scalar scalar) const noexcept {
@@ -957,7 +1014,8 @@ private:
             for (const int step : {-1, 1}) {
                 Vec3i next = at;
                 next[axis] += step;
-                if (isInside(next) && hasLabel(next, scalar) && sharePointOnSide(plane, at, next, isPositive))
+                if (isInside(next) && hasLabel(next, scalar) && sharePointOnSide(plane, at, next, isPositive) &&
+                    isBesideSliver(plane, at, next, isPositive, scalar))
                     return true;
             }
         return false;

@@ -204,6 +204,52 @@ TEST(FacesOfTheModel, AreTheOnlyPlanesOfARoof) {
     EXPECT_LT(known.arrays().boxes.size(), fitted.arrays().boxes.size());
 }
 
+// The label that rays find at a point of a coded brick.
+Scalar codedLabelAt(const BrickVolume& bricks, BrickVolume::Entry entry, Vec3d point) {
+    std::size_t cell = 0;
+    int bit = 0;
+    const auto& coding = bricks.coding(entry);
+    coding.forEachSide([&](int axis, std::uint16_t place) { cell |= std::size_t{point[axis] >= place} << bit++; },
+                       [&](std::uint32_t number) {
+                           const BrickPlane& plane = bricks.planes()[number];
+                           cell |= std::size_t{dot(plane.normal, point) + plane.offset > 0} << bit++;
+                       });
+    return bricks.sideScalar(coding, cell);
+}
+
+//     -----  the plane of a roof goes on beyond the ridge, where it cuts corners of bricks of air.
+//      /\     No ray may find the roof there: it would be a line above the ridge.
+TEST(FacesOfTheModel, DoNotGoOnBeyondTheRidge) {
+    const Vec3i n{64, 96, 64};
+    std::size_t points = 0;
+    for (const double shift : {0.0, 1.3, 2.6, 3.9, 5.2, 6.5}) {
+        const Vec3d ridge{32, 44.2 + shift, 46.1 + shift};
+        const FacePlane south = faceThrough({0.02, -0.35, 0.9}, ridge, n);
+        const FacePlane north = faceThrough({-0.01, 0.35, 0.9}, ridge, n);
+        const BrickVolume bricks =
+            bricksOf(n,
+                     [&](auto i, auto j, auto k) {
+                         return heightOver(south, i, j, k) < 0 && heightOver(north, i, j, k) < 0 ? 1u : 0u;
+                     },
+                     BrickFaces::Slopes, {south, north});
+        const auto over = [](const FacePlane& face, Vec3d p) { return dot(face.plane.normal, p) + face.plane.offset; };
+        for (std::int32_t bz = 0; bz < n.z / 8; ++bz)
+            for (std::int32_t by = 0; by < n.y / 8; ++by)
+                for (std::int32_t bx = 0; bx < n.x / 8; ++bx) {
+                    const auto entry = bricks.entry(bx, by, bz);
+                    if (!entry.isCoded()) continue;
+                    for (int at = 0; at < 32 * 32 * 32; ++at) {
+                        const Vec3d p{8 * bx + (at % 32 + 0.5) / 4, 8 * by + (at / 32 % 32 + 0.5) / 4,
+                                      8 * bz + (at / 1024 + 0.5) / 4};
+                        if (std::max(over(south, p), over(north, p)) < 0.75) continue;
+                        ASSERT_EQ(codedLabelAt(bricks, entry, p), 0u) << p.x << ' ' << p.y << ' ' << p.z;
+                        ++points;
+                    }
+                }
+    }
+    EXPECT_GT(points, 100000u);
+}
+
 TEST(FacesOfTheModel, MeetByThrees) {
     // A pyramid with four faces, three of which meet only at the top, and an oblique floor.
     const Vec3i n{96, 96, 64};

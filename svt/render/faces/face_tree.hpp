@@ -1,0 +1,93 @@
+#pragma once
+/// \file
+/// Triangles in a tree of boxes, from which a ray takes its crossings in order of depth.
+///
+/// Watertight: the ray becomes the origin of a plane (Woop, Benthin & Wald 2013). Each corner has one place there, for
+/// all triangles. Two triangles that share an edge evaluate the same expression for it, with opposite signs. Where it is
+/// zero, the ray counts as moved aside by an infinitesimal step, the same for all edges (simulation of simplicity:
+/// Edelsbrunner & Mücke 1990). So a ray crosses a closed mesh as often inwards as outwards.
+
+#include <svt/core/vec.hpp>
+#include <svt/render/voxel_ray.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace svt::render {
+
+/// Corners are counter-clockwise from outside.
+struct FaceTriangle {
+    std::array<std::uint32_t, 3> corners{};
+    std::uint32_t object = 0;
+};
+
+/// Where a ray crosses a triangle.
+struct FaceCrossing {
+    double t = -std::numeric_limits<double>::infinity();
+    std::uint32_t triangle = 0;
+    bool isEntry = false;
+
+    [[nodiscard]] bool isBefore(const FaceCrossing& other) const noexcept {
+        return t < other.t || (t == other.t && triangle < other.triangle);
+    }
+};
+
+class FaceTree {
+public:
+    static constexpr std::size_t kBatch = 12;
+    using Batch = std::array<FaceCrossing, kBatch>;
+
+    FaceTree() = default;
+    /// \param points  voxel space
+    FaceTree(std::vector<Vec3d> points, std::vector<FaceTriangle> triangles);
+
+    /// The first crossings after `last`, up to t = `to`, in order.
+    /// \param most  of them, 1 to kBatch
+    /// \return their number; `most` if there may be more
+    [[nodiscard]] std::size_t findNext(const VoxelRay& ray, const FaceCrossing& last, double to, std::size_t most,
+                                       Batch& batch) const;
+    /// Appends all crossings up to t = `to`, in any order.
+    void findAll(const VoxelRay& ray, double to, std::vector<FaceCrossing>& found) const;
+    [[nodiscard]] const FaceTriangle& triangle(std::uint32_t number) const noexcept { return triangles_[number]; }
+    /// Normal of a triangle, outwards, voxel space, not of unit length.
+    [[nodiscard]] Vec3d normal(std::uint32_t number) const noexcept;
+    [[nodiscard]] std::size_t sizeBytes() const noexcept;
+
+private:
+    struct Node {
+        std::array<float, 3> min{}, max{};
+        std::uint32_t first = 0;  // leaf: its first triangle; else: its first child, followed by the second
+        std::uint32_t count = 0;  // triangles of a leaf; 0: two children
+    };
+    struct Span {
+        double from, to;
+    };
+    [[nodiscard]] static Span spanOf(const std::array<float, 3>& min, const std::array<float, 3>& max,
+                                     const VoxelRay& ray) noexcept;
+    [[nodiscard]] Node boundsOf(std::size_t begin, std::size_t end) const noexcept;
+    void split(std::size_t node, std::size_t begin, std::size_t end, int depth);
+    [[nodiscard]] std::size_t splitPlace(std::size_t begin, std::size_t end);
+    // The plane across the ray: the axis that it follows most, and its slopes along the other two.
+    struct Across {
+        int x, y, along;
+        double slopeX, slopeY;
+        bool isBackwards;
+        explicit Across(const VoxelRay& ray) noexcept;
+    };
+    [[nodiscard]] bool cross(std::uint32_t number, const VoxelRay& ray, const Across& across,
+                             FaceCrossing& crossing) const noexcept;
+
+    // Calls visit(crossing) for the crossings from about `from` up to `to`, which it may lower; near boxes first.
+    template <class Visit>
+    void traverse(const VoxelRay& ray, double from, const double& to, const Visit& visit) const;
+
+    std::vector<Vec3d> points_;
+    std::vector<FaceTriangle> triangles_;
+    std::vector<Node> nodes_;
+};
+
+}  // namespace svt::render
