@@ -16,7 +16,7 @@ function(svt_dependency_versions variable)
     svt_header_version(zstd ${ZSTD_INCLUDE_DIR}/zstd.h "ZSTD_VERSION_(MAJOR|MINOR|RELEASE) +([0-9]+)")
     svt_header_version(cli11 ${CLI11_INCLUDE_DIR}/CLI/Version.hpp "CLI11_VERSION_(MAJOR|MINOR|PATCH) ([0-9]+)")
     set(libraries CLI11=${cli11} fmt=${fmt_VERSION} FreeType=${FREETYPE_VERSION_STRING} Highway=${hwy_VERSION}
-      libpng=${PNG_VERSION_STRING} nlohmann_json=${nlohmann_json_VERSION} oneTBB=${TBB_VERSION} pugixml=${pugixml_VERSION}
+      libjpeg=${JPEG_VERSION} libpng=${PNG_VERSION_STRING} nlohmann_json=${nlohmann_json_VERSION} oneTBB=${TBB_VERSION} pugixml=${pugixml_VERSION}
       simdjson=${simdjson_VERSION} zlib=${ZLIB_VERSION_STRING} zstd=${zstd})
   endif()
   list(JOIN libraries "," joined)

@@ -61,6 +61,6 @@ Description: @PROJECT_DESCRIPTION@
 Version: @PROJECT_VERSION@
 Cflags: -I${includedir} -std=c++20
 Libs: -L${libdir} -Wl,--start-group @archives@ -Wl,--end-group -lpugixml -lsimdjson -lhwy -lGLU -ltbb
-Requires: fmt zlib libpng freetype2 libzstd egl glesv2
+Requires: fmt zlib libpng libjpeg freetype2 libzstd egl glesv2
 ]])
 install(FILES ${CMAKE_BINARY_DIR}/svt.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)

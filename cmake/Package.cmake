@@ -24,8 +24,8 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 # PROJ is loaded with the first use, so that its package is not found by what is linked: libproj.so.25 is in libproj25.
 string(REPLACE ".so." "" SVT_PROJ_PACKAGE ${SVT_PROJ_LIBRARY})
 set(CPACK_DEBIAN_COMMAND_PACKAGE_DEPENDS ${SVT_PROJ_PACKAGE})
-# OpenGL is optional, and so are cairo and qpdf, for PDF and its layers, SQLite, for GeoPackage, curl, for addresses, ffmpeg, for films, and a browser that `svt view` may open.
-set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, libcairo2, libqpdf29, libsqlite3-0, libcurl4 | libcurl3-gnutls, xdg-utils")
+# OpenGL is optional, and so are cairo, qpdf and FriBidi, for PDF, its layers and its Arabic and Hebrew text, SQLite, for GeoPackage, curl, for addresses, ffmpeg, for films, and a browser that `svt view` may open.
+set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, libcairo2, libqpdf29, libfribidi0, libsqlite3-0, libcurl4 | libcurl3-gnutls, xdg-utils")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS ffmpeg)
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION "Turns a building model (CityGML, CityJSON, IFC, IndoorGML) into a volume in
 which every voxel is labelled with its building component. Draws, measures,
@@ -36,7 +36,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsvt-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # What cmake/LibraryDependencies.cmake looks for.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, libtbb-dev, libpugixml-dev, libsimdjson-dev, nlohmann-json3-dev, \
-zlib1g-dev, libpng-dev, libhwy-dev, libfreetype-dev, libglu1-mesa-dev, libzstd-dev, ${SVT_PROJ_PACKAGE}, libegl-dev, libgles-dev")
+zlib1g-dev, libpng-dev, libjpeg62-turbo-dev, libhwy-dev, libfreetype-dev, libglu1-mesa-dev, libzstd-dev, ${SVT_PROJ_PACKAGE}, libegl-dev, libgles-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, pkg-config")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries and headers to read building models, to build labelled
 volumes, and to query and draw them; a CMake package and a pkg-config file.")

@@ -48,7 +48,8 @@ struct Format {
 [[nodiscard]] Result<model::BuildingModel> readModel(const std::filesystem::path& path, const ReadOptions& options = {},
                                                      Diagnostics* diagnostics = nullptr);
 
-/// The same for a file in memory. `name` is used in messages.
+/// The same for a file in memory. `name` is used in messages. Images of textures are read only if the options name their
+/// folder.
 [[nodiscard]] Result<model::BuildingModel> readModel(std::span<const std::byte> bytes, std::string_view name,
                                                      const ReadOptions& options = {},
                                                      Diagnostics* diagnostics = nullptr);

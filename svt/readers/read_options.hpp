@@ -31,6 +31,9 @@ struct ReadOptions {
     bool extrudeFootprints = false;  ///< footprints with a height as attribute become solids
     bool allowTruncated = false;     ///< read a file that was cut off up to the cut (IFC, CityJSONSeq)
     bool splitLayers = false;        ///< IFC: walls and slabs become the layers of their material
+    /// The images of textures are read from this folder and those below it. Empty: readModel(path) takes the folder of
+    /// the file, and models in memory have no such images.
+    std::string imageFolder;
 };
 
 /// The options that a user can set.

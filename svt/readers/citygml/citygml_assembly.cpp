@@ -7,6 +7,7 @@
 #include <svt/readers/citygml/citygml_resolver.hpp>
 #include <svt/readers/georeference/georeference.hpp>
 #include <svt/readers/gml/gml_crs.hpp>
+#include <svt/readers/textures/texture_colors.hpp>
 
 #include <fmt/format.h>
 
@@ -45,6 +46,8 @@ public:
                                   [this](Severity severity, Code code, std::string message, std::uint64_t offset,
                                          string_view id) { report(severity, code, std::move(message), offset, id); });
         applyMaterials(part_, references, resolver, geometries, materials_);
+        if constexpr (textures::kReadsTextures)
+            if (!options_.imageFolder.empty()) textures_ = applyTextures(part_, references, resolver, materials_);
         std::vector<std::vector<model::Geometry>> resolved = resolveAll(resolver, geometries);
         if (resolver.isOverBudget())
             return Error(Code::InputTooBig,
@@ -304,6 +307,8 @@ private:
         model.materials = std::move(materials_);
         model.memberships = std::move(part_.memberships);
         model.memberships.insert(model.memberships.end(), memberships_.begin(), memberships_.end());
+        if constexpr (textures::kReadsTextures)
+            SVT_DO(textures::colorTextured(model, textures_, facts_.fileName, options_, diagnostics_));
         SVT_DO(settleCrs(model));
         return model;
     }
@@ -333,6 +338,7 @@ private:
     const ReadOptions& options_;
     Diagnostics& diagnostics_;
     std::vector<model::Material> materials_;
+    textures::TextureSet textures_;
     std::vector<model::Membership> memberships_;
     std::vector<Vec3d> anchors_;  // see GivenCrs
 };

@@ -3,6 +3,7 @@
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/readers/citygml/citygml_attributes.hpp>
+#include <svt/readers/citygml/citygml_materials.hpp>
 #include <svt/readers/gml/gml_numbers.hpp>
 
 #include <fmt/format.h>
@@ -325,6 +326,9 @@ void FeatureReader::readAppearance(const Element& element, bool continues) {
         }
         scope_.forEachChild(property.node, [&](const Element& data) {
             if (data.localName == "X3DMaterial") readMaterial(data, record);
+            if constexpr (textures::kReadsTextures)
+                if (data.localName == "ParameterizedTexture" || data.localName == "GeoreferencedTexture")
+                    readTexture(scope_, data, {record.theme, record.inheritsTheme, {}, {}, {}, {}}, part_.textures);
         });
     });
 }

@@ -130,6 +130,11 @@ void Part::join(Part&& next) {
     shiftIndices(next, *this, mergesFirst);
     for (MaterialRecord& record : next.materials)
         if (record.inheritsTheme) record.theme = lastTheme.value_or("");
+    if constexpr (textures::kReadsTextures) {
+        for (TextureRecord& record : next.textures)
+            if (record.inheritsTheme) record.theme = lastTheme.value_or("");
+        append(this->textures, std::move(next.textures));
+    }
 
     auto firstFeature = next.features.begin();
     auto firstOffset = next.featureOffsets.begin();

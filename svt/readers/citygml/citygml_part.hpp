@@ -6,6 +6,7 @@
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/model/building_model.hpp>
+#include <svt/readers/textures/texture_set.hpp>
 
 #include <array>
 #include <cstddef>
@@ -74,6 +75,24 @@ struct MaterialRecord {
     std::vector<std::string> targets;
 };
 
+/// A surface, and the part of an image that lies on it.
+struct TextureTarget {
+    std::string href;
+    std::vector<textures::TexturePoint> points;  ///< of all rings
+    std::vector<std::uint32_t> ringEnds;         ///< index behind the last point of each ring
+    std::vector<double> worldToTexture;          ///< 3 x 4 matrix of a TexCoordGen, or empty
+};
+
+/// A ParameterizedTexture or GeoreferencedTexture within an Appearance.
+struct TextureRecord {
+    std::string theme;
+    bool inheritsTheme = false;  ///< the Appearance began in the previous part
+    std::string id;
+    textures::TextureImage image;
+    textures::Wrap wrap = textures::Wrap::Repeat;
+    std::vector<TextureTarget> targets;
+};
+
 /// A srsName and its first occurrence.
 struct CrsName {
     std::string name;
@@ -123,6 +142,7 @@ struct Part {
 
     // The rest.
     std::vector<MaterialRecord> materials;
+    std::vector<TextureRecord> textures;   ///< none where kReadsTextures is false
     std::optional<std::string> lastTheme;  ///< theme of the last Appearance, which may continue in the next part
     std::vector<CrsName> crsNames;
     std::uint64_t flatRings = 0, fullRings = 0;  ///< rings of two and of three numbers for each point

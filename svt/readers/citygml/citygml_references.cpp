@@ -1,7 +1,8 @@
 #include <svt/readers/citygml/citygml_references.hpp>
 
+#include <svt/readers/gml/percent_decoded.hpp>
+
 #include <algorithm>
-#include <charconv>
 
 namespace svt::readers::citygml {
 namespace {
@@ -23,22 +24,6 @@ bool looksLikeFile(string_view href) noexcept {
 string_view idOfHref(string_view href) noexcept {
     const std::size_t hash = href.find('#');
     return hash == string_view::npos ? href : href.substr(hash + 1);
-}
-
-std::string percentDecoded(string_view text) {
-    std::string decoded;
-    decoded.reserve(text.size());
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        unsigned value = 0;
-        const char* const digits = text.data() + i + 1;
-        if (text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
-            decoded += static_cast<char>(value);
-            i += 2;
-        } else {
-            decoded += text[i];
-        }
-    }
-    return decoded;
 }
 
 string_view idOfNode(const Part& part, NodeIndex index) noexcept {
@@ -76,7 +61,7 @@ Target References::find(string_view href, bool prefersGeometry) const {
     const string_view id = idOfHref(href);
     if (const Target target = lookUp(id, prefersGeometry); target.kind != Target::Kind::Nothing) return target;
     if (id.find('%') != string_view::npos || id.find(' ') != string_view::npos) {
-        std::string decoded = percentDecoded(id);
+        std::string decoded = gml::percentDecoded(id);
         const auto isSpace = [](char c) { return c == ' '; };
         decoded.erase(decoded.begin(), std::find_if_not(decoded.begin(), decoded.end(), isSpace));
         decoded.erase(std::find_if_not(decoded.rbegin(), decoded.rend(), isSpace).base(), decoded.end());

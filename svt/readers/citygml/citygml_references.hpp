@@ -44,9 +44,6 @@ private:
 /// The id in `href`: the text after '#' if there is one; the caller decodes percent-encoding where needed.
 [[nodiscard]] std::string_view idOfHref(std::string_view href) noexcept;
 
-/// Decodes "a%20b" to "a b"; invalid encodings are kept.
-[[nodiscard]] std::string percentDecoded(std::string_view text);
-
 /// gml:id of a node, or empty.
 [[nodiscard]] std::string_view idOfNode(const Part& part, NodeIndex node) noexcept;
 

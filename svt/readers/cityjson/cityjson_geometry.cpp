@@ -1,6 +1,7 @@
 #include <svt/readers/cityjson/cityjson_geometry.hpp>
 
 #include <svt/model/classes.hpp>
+#include <svt/readers/cityjson/cityjson_textures.hpp>
 #include <svt/readers/georeference/georeference.hpp>
 
 #include <fmt/format.h>
@@ -45,23 +46,25 @@ private:
     bool isArray_ = false;
 };
 
-/// Semantics and material values of a geometry at one nesting level of its boundaries.
+/// Semantics, material and texture values of a geometry at one nesting level of its boundaries.
 struct Values {
-    std::optional<json::element> semantics, material;
+    std::optional<json::element> semantics, material, texture;
 };
 
-/// Both arrays of values, iterated in parallel with the boundaries.
+/// The arrays of values, iterated in parallel with the boundaries.
 class ParallelValues {
 public:
     ParallelValues(const Values& values, bool& hasBadNesting)
-        : semantics_(values.semantics, hasBadNesting), material_(values.material, hasBadNesting) {}
+        : semantics_(values.semantics, hasBadNesting),
+          material_(values.material, hasBadNesting),
+          texture_(values.texture, hasBadNesting) {}
     Values next() {
-        const auto semantics = semantics_.next();
-        return {semantics, material_.next()};
+        const auto semantics = semantics_.next(), material = material_.next();
+        return {semantics, material, texture_.next()};
     }
 
 private:
-    ParallelArray semantics_, material_;
+    ParallelArray semantics_, material_, texture_;
 };
 
 /// True if at least three of the points are distinct.
@@ -110,6 +113,7 @@ private:
         isInstance_ = false;
         materialBegin_ = context_.materialBegin;
         materialEnd_ = context_.materialEnd;
+        textures_ = context_.ownTextures;
         if (type == "GeometryInstance")
             readInstance(geometry);
         else
@@ -137,6 +141,7 @@ private:
         isInstance_ = true;
         materialBegin_ = 0;
         materialEnd_ = context_.templateMaterialEnd;
+        textures_ = context_.headTextures;
         readBoundaries(*geometry, type);
     }
 
@@ -192,7 +197,9 @@ private:
         result.lod = readLod(geometry);
         result.id = textMember(geometry, "id");
         beginSemantics(geometry, result.lod);
-        const Values values{semanticValues_, materialValues(geometry)};
+        Values values{semanticValues_, materialValues(geometry), std::nullopt};
+        if constexpr (textures::kReadsTextures)
+            if (textures_ != nullptr) values.texture = textureValues(geometry, textures_->theme);
         hasBadNesting_ = hasBadNestingOfValues_ = false;
         surfaceNumber_ = 0;
         if (isSurface) {
@@ -214,8 +221,9 @@ private:
                    fmt::format("has boundaries that are not nested as a {} is; those parts are left out", type));
         if (hasBadNestingOfValues_)
             report(Code::BadValue,
-                   fmt::format("has semantics or material values that are not nested as a {} is; those are left out",
-                               type));
+                   fmt::format(
+                       "has semantics, material or texture values that are not nested as a {} is; those are left out",
+                       type));
         if (!result.solids.empty() || !result.surfaces.empty()) object_.feature.geometries.push_back(std::move(result));
         endSemantics();
     }
@@ -266,6 +274,7 @@ private:
                 hasBadNesting_ = true;
             } else if (readPolygon(*rings, polygon)) {
                 polygon.material = materialOf(own.material);
+                readTexture(own.texture, polygon);
                 const auto index = static_cast<model::PolygonIndex>(object_.polygons.size());
                 object_.polygons.push_back(std::move(polygon));
                 if (isInstance_) {
@@ -276,6 +285,29 @@ private:
                 giveToSemantics(own.semantics, index);
             }
             ++surfaceNumber_;
+        }
+    }
+
+    // Whether a polygon keeps its material also if it has a texture.
+    [[nodiscard]] bool hasColor(std::int32_t material) const {
+        if (material < 0) return false;
+        const auto number = static_cast<std::size_t>(material);
+        if (number < context_.templateMaterialEnd) return !textures::isPlainGrey((*context_.headMaterials)[number]);
+        return context_.ownMaterials == nullptr ||
+               !textures::isPlainGrey((*context_.ownMaterials)[number - context_.templateMaterialEnd]);
+    }
+
+    void readTexture([[maybe_unused]] const std::optional<json::element>& rings,
+                     [[maybe_unused]] model::Polygon& polygon) {
+        if constexpr (textures::kReadsTextures) {
+            if (!rings || textures_ == nullptr || hasColor(polygon.material)) return;
+            auto use = readTextureUse(*rings, *textures_);
+            if (!use || object_.textureUses.size() >= textures::kMaxUses) return;
+            const bool isOfHead = textures_ == context_.headTextures;
+            if (!isOfHead) use->image += static_cast<std::uint32_t>(context_.headTextures->images.size());
+            use->otherwise = polygon.material;
+            polygon.material = textures::materialOfUse(object_.textureUses.size());
+            object_.textureUses.push_back(std::move(*use));
         }
     }
 
@@ -562,6 +594,7 @@ private:
 
     std::size_t materialBegin_ = 0, materialEnd_ = 0;
     std::int32_t uniformMaterial_ = -1;
+    const TextureSource* textures_ = nullptr;
 
     double lod_ = -1;
     std::vector<Draft> drafts_;

@@ -6,6 +6,7 @@
 
 #include <svt/core/vec.hpp>
 #include <svt/model/building_model.hpp>
+#include <svt/readers/textures/texture_set.hpp>
 
 #include <cstdint>
 #include <span>
@@ -24,6 +25,14 @@ struct TemplateSet {
     std::vector<Vec3d> vertices;           ///< never transformed
 };
 
+/// The member `appearance` of a text, as far as it is about textures.
+struct TextureSource {
+    std::vector<textures::TextureImage> images;
+    std::vector<textures::Wrap> wraps;  ///< of each image
+    std::vector<textures::TexturePoint> vertices;
+    std::string theme;  ///< default-theme-texture, or empty
+};
+
 /// Data shared by the objects of one JSON text. An unusable vertex has x = NaN.
 struct TextContext {
     TextOrigin origin;
@@ -33,6 +42,11 @@ struct TextContext {
     std::size_t materialEnd = 0;
     std::size_t templateMaterialEnd = 0;  ///< materials of templates are [0, end)
     std::string_view materialTheme;       ///< default-theme-material, or empty
+    // Images of the uses of `own` follow those of the header. Null: textures are not read.
+    const TextureSource* ownTextures = nullptr;
+    const std::vector<model::Material>* headMaterials = nullptr;  ///< [0, templateMaterialEnd) of the numbering
+    const std::vector<model::Material>* ownMaterials = nullptr;   ///< from templateMaterialEnd on; null: none
+    const TextureSource* headTextures = nullptr;  ///< also of templates; the same as ownTextures within the header
 };
 
 /// A semantic surface that has polygons, or an ancestor of one.
@@ -48,6 +62,7 @@ struct ParsedObject {
     model::Feature feature;
     std::vector<std::string> parents, children, childrenRoles;
     std::vector<model::Polygon> polygons;
+    std::vector<textures::TextureUse> textureUses;  ///< that materials of polygons refer to
     std::vector<Vec3d> anchors;             ///< of polygons of instances, see GivenCrs; may end before `polygons` does
     std::vector<SemanticSurface> surfaces;  ///< parents precede their children
     Diagnostics diagnostics;

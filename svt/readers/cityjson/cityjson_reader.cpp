@@ -6,7 +6,9 @@
 #include <svt/readers/cityjson/cityjson_geometry.hpp>
 #include <svt/readers/cityjson/cityjson_link.hpp>
 #include <svt/readers/cityjson/cityjson_objects.hpp>
+#include <svt/readers/cityjson/cityjson_textures.hpp>
 #include <svt/readers/read_model.hpp>
+#include <svt/readers/textures/texture_colors.hpp>
 
 #include <fmt/format.h>
 
@@ -131,6 +133,7 @@ struct ParsedLine {
     std::uint64_t number = 0;  ///< 1-based
     std::vector<ParsedObject> objects;
     std::vector<model::Material> materials;  ///< of this line only
+    TextureSource textures;                  ///< of this line only
     Diagnostics diagnostics;
 };
 
@@ -157,6 +160,8 @@ public:
         }
         if (Progress::isCancelled(options_.progress)) return cancelled();
         SVT_DO(linkObjects(std::move(objects_), name_, model_, anchors_, diagnostics_));
+        if constexpr (textures::kReadsTextures)
+            SVT_DO(textures::colorTextured(model_, textures_, name_, options_, diagnostics_));
         SVT_DO(settleCrs(model_, name_, anchors_, options_, diagnostics_));
         Progress::tell(options_.progress, "read", 1);
         return std::move(model_);
@@ -201,6 +206,11 @@ private:
         model_.materials = readMaterials(members.appearance);
         headMaterials_ = model_.materials.size();
         theme_ = readTheme(members.appearance);
+        if constexpr (textures::kReadsTextures)
+            if (!options_.imageFolder.empty()) {
+                headTextures_ = cityjson::readTextures(members.appearance);
+                textures_.images = headTextures_.images;
+            }
         readTemplates(members.templates);
 
         const auto cityObjects = asObject(members.cityObjects);
@@ -215,7 +225,9 @@ private:
     }
 
     [[nodiscard]] TextContext contextOf(const TextOrigin& origin, std::span<const Vec3d> vertices) {
-        return {origin, vertices, &templates_, 0, headMaterials_, headMaterials_, theme_};
+        const TextureSource* const textures = options_.imageFolder.empty() ? nullptr : &headTextures_;
+        return {origin, vertices, &templates_,       0,       headMaterials_, headMaterials_,
+                theme_, textures, &model_.materials, nullptr, textures};
     }
 
     Result<void> readVersion(const std::optional<json::element>& value, bool hasLines) {
@@ -292,7 +304,30 @@ private:
                 objects_[i] = readCityObject(members[i].first, members[i].second, context);
         });
         if (Progress::isCancelled(options_.progress)) return cancelled();
+        for (ParsedObject& object : objects_) joinTextures(object, {});
         return {};
+    }
+
+    /// Appends the uses of an object to those of the model.
+    /// \param imageOf  the numbers that the images of a line get; images of the header keep theirs
+    void joinTextures([[maybe_unused]] ParsedObject& object,
+                      [[maybe_unused]] const std::vector<std::uint32_t>& imageOf) {
+        if constexpr (textures::kReadsTextures) {
+            const std::size_t first = textures_.uses.size();
+            if (first + object.textureUses.size() > textures::kMaxUses) object.textureUses.clear();
+            for (model::Polygon& polygon : object.polygons) {
+                if (!textures::isUse(polygon.material)) continue;
+                const std::size_t use = textures::useOf(polygon.material);
+                polygon.material =
+                    use < object.textureUses.size() ? textures::materialOfUse(first + use) : std::int32_t{-1};
+            }
+            for (textures::TextureUse& use : object.textureUses) {
+                if (use.image >= headTextures_.images.size())
+                    use.image = imageOf[use.image - headTextures_.images.size()];
+                textures_.uses.push_back(std::move(use));
+            }
+            object.textureUses = {};
+        }
     }
 
     /// A sequence is cut off if its last line is; that line also lacks a line break.
@@ -320,7 +355,7 @@ private:
             for (std::size_t bytes = 0; position < rest_.size() && bytes < kBatchBytes;) {
                 const std::size_t end = std::min(rest_.find('\n', position), rest_.size());
                 const std::string_view line = withoutBlanks(rest_.substr(position, end - position));
-                if (!line.empty()) batch.push_back({line, number, {}, {}, {}});
+                if (!line.empty()) batch.push_back({line, number, {}, {}, {}, {}});
                 bytes += line.size();
                 position = end + 1;
                 ++number;
@@ -372,8 +407,15 @@ private:
             // Numbered after those of the header here; joinLine() assigns the numbers of the model.
             context.materialBegin = headMaterials_;
             context.materialEnd = context.materialBegin + line.materials.size();
+            context.ownMaterials = &line.materials;
         }
         if (const auto theme = readTheme(members.appearance); !theme.empty()) context.materialTheme = theme;
+        if constexpr (textures::kReadsTextures)
+            if (context.headTextures != nullptr && members.appearance) {
+                line.textures = cityjson::readTextures(members.appearance);
+                if (line.textures.theme.empty()) line.textures.theme = headTextures_.theme;
+                if (!line.textures.images.empty()) context.ownTextures = &line.textures;
+            }
         line.objects.reserve(cityObjects->size());
         for (const auto [id, value] : *cityObjects) line.objects.push_back(readCityObject(id, value, context));
     }
@@ -391,11 +433,22 @@ private:
             if (isNew) model_.materials.push_back(std::move(material));
             numberOf.push_back(entry->second);
         }
+        std::vector<std::uint32_t> imageOf;
+        if constexpr (textures::kReadsTextures)
+            for (textures::TextureImage& image : line.textures.images) {
+                const auto next = static_cast<std::uint32_t>(textures_.images.size());
+                const auto [entry, isNew] = imageNumbers_.emplace(image.file, next);
+                if (isNew) textures_.images.push_back(std::move(image));
+                imageOf.push_back(entry->second);
+            }
         const auto first = static_cast<std::int32_t>(headMaterials_);
         for (ParsedObject& object : line.objects) {
             for (model::Polygon& polygon : object.polygons)
                 if (polygon.material >= first)
                     polygon.material = numberOf[static_cast<std::size_t>(polygon.material - first)];
+            for (textures::TextureUse& use : object.textureUses)
+                if (use.otherwise >= first) use.otherwise = numberOf[static_cast<std::size_t>(use.otherwise - first)];
+            joinTextures(object, imageOf);
             objects_.push_back(std::move(object));
         }
     }
@@ -412,6 +465,9 @@ private:
     std::size_t headMaterials_ = 0;
     /// Key: name, colour and transparency of the materials of lines.
     std::map<std::tuple<std::string, float, float, float, float>, std::int32_t> materialNumbers_;
+    TextureSource headTextures_;
+    textures::TextureSet textures_;
+    std::map<std::string, std::uint32_t> imageNumbers_;  ///< of lines, by file
     std::vector<ParsedObject> objects_;
     std::vector<Vec3d> anchors_;
     model::BuildingModel model_;

@@ -12,7 +12,8 @@
 ///  - Nested attributes are named "outer/inner", arrays are compact JSON text, {"value", "uom"} is a measure,
 ///    the members of an address are named "address/...".
 ///  - Polygon::material follows the theme `default-theme-material`. A geometry without that theme follows its
-///    first theme in alphabetical order. Textures are skipped.
+///    first theme in alphabetical order. Polygons without material follow `default-theme-texture` in the same way:
+///    they get a colour from their texture, see textures/texture_colors.hpp.
 ///  - x is east and y north, as is usual in files. They are swapped only if the CRS and the magnitude of the
 ///    coordinates prove the opposite.
 

@@ -264,7 +264,9 @@ Result<model::BuildingModel> readModel(Bytes bytes, string_view name, const Read
 Result<model::BuildingModel> readModel(const std::filesystem::path& path, const ReadOptions& options,
                                        Diagnostics* diagnostics) {
     SVT_TRY(file, FileBytes::read(path, options.maxBytes));
-    return readModel(file->bytes(), path.string(), options, diagnostics);
+    ReadOptions own = options;
+    if (own.imageFolder.empty()) own.imageFolder = path.has_parent_path() ? path.parent_path().string() : ".";
+    return readModel(file->bytes(), path.string(), own, diagnostics);
 }
 
 }  // namespace svt::readers

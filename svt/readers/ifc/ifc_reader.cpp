@@ -58,7 +58,7 @@ public:
         model_.source = name_;
         model_.format = *version;
         readProject();
-        const Styles styles = readStyles(file_);
+        const Styles styles = readStyles(file_, name_, options_, diagnostics_);
         model_.materials = styles.materials;
         structure_ = readStructure(file_);
         if (file_.guard().isFileSpent()) return tooMuch();

@@ -1,5 +1,7 @@
 #include <svt/readers/ifc/styles.hpp>
 
+#include <svt/readers/textures/ifc_textures.hpp>
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -11,7 +13,8 @@ class StyleReader {
 public:
     explicit StyleReader(const IfcFile& file) : file_(file) {}
 
-    Styles run() {
+    Styles run([[maybe_unused]] std::string_view fileName, [[maybe_unused]] const ReadOptions& options,
+               [[maybe_unused]] Diagnostics& diagnostics) {
         for (RecordIndex i = 0; i < file_.step().records().size(); ++i) switch (file_.entityOf(i)) {
                 case Entity::StyledItem: readStyledItem(i); break;
                 case Entity::IndexedColourMap: readColorMap(file_.fieldsOf(i)); break;
@@ -19,6 +22,8 @@ public:
                 case Entity::ShapeAspect: readAspect(i); break;
                 default: break;
             }
+        if constexpr (textures::kReadsTextures)
+            textures::colorTexturedStyles(file_, textured_, styles_.materials, fileName, options, diagnostics);
         for (const auto& [item, part] : partOfItem_) namePart(item, part);
         return std::move(styles_);
     }
@@ -122,12 +127,32 @@ private:
             styles_.materials.push_back(std::move(material));
             break;
         }
+        if constexpr (textures::kReadsTextures)
+            if (number < 0 || textures::isPlainGrey(styles_.materials[static_cast<std::size_t>(number)]))
+                number = texturedMaterial(fields, number);
         return numbers_[style] = number;
+    }
+
+    // The number of a material whose colour comes from textures; `grey` if there are none.
+    // \param grey  the number of the material that the style has otherwise, or -1
+    std::int32_t texturedMaterial(const Fields& fields, std::int32_t grey) {
+        for (const RecordIndex texture : file_.followAll(fields[at::SurfaceStyle::Styles])) {
+            if (!textures::isTexturedStyle(file_, texture)) continue;
+            const auto number = grey >= 0 ? grey : static_cast<std::int32_t>(styles_.materials.size());
+            textured_.push_back({texture, static_cast<std::size_t>(number), grey >= 0});
+            if (grey >= 0) return grey;
+            model::Material material;
+            material.name = fields[at::SurfaceStyle::Name].string().value_or("");
+            styles_.materials.push_back(std::move(material));
+            return number;
+        }
+        return grey;
     }
 
     const IfcFile& file_;
     Styles styles_;
     std::unordered_map<RecordIndex, std::int32_t> numbers_;
+    std::vector<textures::TexturedStyle> textured_;
     std::map<RecordIndex, std::string> partOfItem_;  // ordered, so that materials have the same numbers each time
     std::map<std::pair<std::int32_t, std::string>, std::int32_t> numbersOfParts_;  // by material without part
 };
@@ -148,6 +173,9 @@ std::unordered_map<RecordIndex, std::string> readPresentationLayers(const IfcFil
     return layers;
 }
 
-Styles readStyles(const IfcFile& file) { return StyleReader(file).run(); }
+Styles readStyles(const IfcFile& file, std::string_view fileName, const ReadOptions& options,
+                  Diagnostics& diagnostics) {
+    return StyleReader(file).run(fileName, options, diagnostics);
+}
 
 }  // namespace svt::readers::ifc

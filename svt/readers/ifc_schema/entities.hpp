@@ -58,7 +58,21 @@ namespace svt::readers::ifc {
     E(CartesianPointList, None, CoordList) E(CsgPrimitive3D, None, Position) \
     E(ProfileDef, None, ProfileType, ProfileName) \
     E(ParameterizedProfileDef, ProfileDef, Position) E(Conic, None, Position) \
-    E(Property, None, Name, Description) E(PhysicalSimpleQuantity, None, Name, Description, Unit)
+    E(Property, None, Name, Description) E(PhysicalSimpleQuantity, None, Name, Description, Unit) \
+    E(SurfaceStyleWithTextures, None, Textures) \
+    E(SurfaceTexture, None, RepeatS, RepeatT, Mode, TextureTransform, Parameter) \
+    E(ImageTexture, SurfaceTexture, URLReference) E(BlobTexture, SurfaceTexture, RasterFormat, RasterCode) \
+    E(PixelTexture, SurfaceTexture, Width, Height, ColourComponents, Pixel) \
+    E(SurfaceTextureOfIfc2x3, None, RepeatS, RepeatT, TextureType, TextureTransform) \
+    E(ImageTextureOfIfc2x3, SurfaceTextureOfIfc2x3, UrlReference) \
+    E(BlobTextureOfIfc2x3, SurfaceTextureOfIfc2x3, RasterFormat, RasterCode) \
+    E(PixelTextureOfIfc2x3, SurfaceTextureOfIfc2x3, Width, Height, ColourComponents, Pixel) \
+    E(TextureCoordinate, None, Maps) E(TextureMap, TextureCoordinate, Vertices, MappedTo) \
+    E(IndexedTextureMap, TextureCoordinate, MappedTo, TexCoords) \
+    E(IndexedTriangleTextureMap, IndexedTextureMap, TexCoordIndex) \
+    E(IndexedPolygonalTextureMap, IndexedTextureMap, TexCoordIndices) \
+    E(TextureCoordinateIndices, None, TexCoordIndex, TexCoordsOf) E(TextureVertexList, None, TexCoordsList) \
+    E(TextureVertex, None, Coordinates)
 
 // Entities that the reader distinguishes.
 #define SVT_IFC_ENTITIES(E) \
