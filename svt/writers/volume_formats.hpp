@@ -64,6 +64,7 @@ struct TilesetWriteOptions {
     std::optional<double> lift;  ///< added to heights, metres; unset: nothing (see globeHeights())
     bool hasVoxels = false;      ///< voxels by the draft extensions instead of surfaces
     bool isCompressed = false;   ///< surfaces by EXT_meshopt_compression
+    bool isPerBuilding = false;  ///< one feature for each building instead of each component
 };
 struct VdbWriteOptions {
     bool hasLevelSets = false;  ///< each class as signed distances instead of a fog volume

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <map>
 #include <set>
 #include <sstream>
@@ -307,6 +308,40 @@ TEST_F(Convert, TilesHaveFeaturesAndAPlaceOnTheGlobe) {
     EXPECT_EQ(runSvt(folder.path(), {"convert", "boxes.svt", "none.3dtiles", "--place", "99,8,110"}).exitCode, 2);
     EXPECT_FALSE(fs::exists(folder / "none.3dtiles"));
     if (!isReadByNode("tileset house.3dtiles")) GTEST_SKIP() << said;
+}
+
+// The JSON of a .glb.
+nlohmann::json jsonOfGlb(const fs::path& file) {
+    const std::string text = readText(file);
+    std::uint32_t size = 0;
+    std::memcpy(&size, text.data() + 12, sizeof size);
+    return nlohmann::json::parse(text.substr(20, size));
+}
+
+TEST_F(Convert, TilesHaveAFeaturePerBuildingAndCompressedViewsOnRequest) {
+    prepareHouse(folder.path(), "0.25");
+    runSvtWell(folder.path(), {"convert", "house.svt", "house.3dtiles"});
+    runSvtWell(folder.path(), {"convert", "house.svt", "small.3dtiles", "--meshopt"});
+    runSvtWell(folder.path(), {"convert", "house.svt", "one.3dtiles", "--per-building"});
+    const auto tableOf = [&](const char* tiles) {
+        return jsonOfGlb(folder / tiles / "0.glb")["extensions"]["EXT_structural_metadata"]["propertyTables"][0];
+    };
+    const auto keysOf = [](const nlohmann::json& object) {
+        std::vector<std::string> keys;
+        for (const auto& [key, value] : object.items()) keys.push_back(key);
+        return keys;
+    };
+    using Keys = std::vector<std::string>;
+    EXPECT_GT(tableOf("house.3dtiles")["count"].get<int>(), 100);
+    EXPECT_EQ(keysOf(tableOf("house.3dtiles")["properties"]),
+              (Keys{"attributes", "class", "id", "name", "parent", "storey", "volume"}));
+    EXPECT_EQ(tableOf("one.3dtiles")["count"], 1);
+    EXPECT_EQ(keysOf(tableOf("one.3dtiles")["properties"]),
+              (Keys{"attributes", "class", "height", "id", "lowest", "name", "volume"}));
+    EXPECT_LT(fs::file_size(folder / "small.3dtiles/0.glb"), fs::file_size(folder / "house.3dtiles/0.glb"));
+    EXPECT_LT(fs::file_size(folder / "one.3dtiles/0.glb"), fs::file_size(folder / "house.3dtiles/0.glb"));
+    if (!isRun(folder.path(), nodeOf("meshopt_tiles.mjs") + "house.3dtiles small.3dtiles", said)) GTEST_SKIP() << said;
+    ASSERT_TRUE(isReadByNode("tileset one.3dtiles")) << said;
 }
 
 TEST_F(Convert, CesiumShowsTilesAtTheirPlaceAndTellsComponents) {

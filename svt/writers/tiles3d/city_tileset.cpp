@@ -9,6 +9,7 @@
 #include <svt/writers/gltf/straight_points.hpp>
 #include <svt/writers/gltf/surface_positions.hpp>
 #include <svt/writers/labels/label_looks.hpp>
+#include <svt/writers/tiles3d/building_table.hpp>
 #include <svt/writers/tiles3d/globe_patch.hpp>
 #include <svt/writers/tiles3d/property_table.hpp>
 #include <svt/writers/tiles3d/quadtree_index.hpp>
@@ -32,16 +33,10 @@ namespace {
 
 using volume::kNoLabel;
 
-/// Data of a building for a row of the table.
-struct Building {
-    volume::Label label;
-    double volume = 0, lowest = INFINITY, highest = -INFINITY;
-};
-
 /// The content of a square while it is made.
 struct Content {
     TileMesh mesh;
-    std::vector<Building> buildings;
+    std::vector<BuildingRow> buildings;
     Box3d box;     // in the frame of the root
     Vec3d origin;  // of the mesh, in the frame of the root
     double cell = 0;
@@ -89,32 +84,6 @@ std::array<VertexColor, 3> colorsOf(const std::vector<volume::Label>& labels, st
     return colors;
 }
 
-/// The table of a content.
-nlohmann::ordered_json tableOf(const std::vector<Building>& buildings, bool hasAttributes, GltfBuffer& buffer) {
-    std::vector<std::string> ids, names, classes, attributes;
-    std::vector<double> volumes, heights, lowest;
-    for (const Building& building : buildings) {
-        const volume::Label& label = building.label;
-        ids.push_back(label.id);
-        names.push_back(label.name);
-        classes.push_back(label.className);
-        volumes.push_back(building.volume);
-        heights.push_back(building.highest - building.lowest);
-        lowest.push_back(building.lowest);
-        if (hasAttributes) attributes.push_back(attributesText(label));
-    }
-    PropertyTable table(buffer, buildings.size());
-    table.strings("id", "id of the building in the model; of coarse content the classes that stand there", ids);
-    if (std::any_of(names.begin(), names.end(), [](const std::string& name) { return !name.empty(); }))
-        table.strings("name", "name of the building, may be empty", names);
-    table.names("class", "class of CityGML", classes);
-    table.knownNumbers("volume", "cubic metres", volumes);
-    table.numbers("height", "metres from the lowest to the highest point", heights);
-    table.numbers("lowest", "metres above datum", lowest);
-    if (hasAttributes) table.attributes(attributes);
-    return table.extension("building", "a building, or all features of a place in coarse content");
-}
-
 class Tileset final : public CityTileset {
 public:
     Tileset(const std::filesystem::path& path, const CityTilesetFrame& frame, std::unique_ptr<GlobeLattice> lattice)
@@ -137,9 +106,10 @@ public:
         made.hasVoxels = content.hasVoxels;
         if (content.mesh.indices.empty()) return made;
         const double mostStep = std::max({kFinestStep, error / 16, cell / 16});
-        SVT_TRY(glb, makeTileGlb(content.mesh, content.buildings.size(),
-                                 [&](GltfBuffer& buffer) { return tableOf(content.buildings, error == 0, buffer); },
-                                 content.origin, {mostStep, frame_.write.tileset.isCompressed}));
+        SVT_TRY(glb,
+                makeTileGlb(content.mesh, content.buildings.size(),
+                            [&](GltfBuffer& buffer) { return buildingTable(content.buildings, error == 0, buffer); },
+                            content.origin, {mostStep, frame_.write.tileset.isCompressed}));
         made.glb = std::move(*glb);
         return made;
     }
@@ -210,7 +180,7 @@ private:
         const GlobePatch& patch;
         Vec3d low, origin;
         FeatureFaces faces;
-        Building building;
+        BuildingRow building;
         bool hasAny = false;
 
         void add(const LabelSurface& surface, const Positions& positions,

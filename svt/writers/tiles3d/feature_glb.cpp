@@ -1,15 +1,19 @@
 #include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/tiles3d/feature_glb.hpp>
 
+#include <svt/analyze/extents.hpp>
+#include <svt/analyze/known_volumes.hpp>
 #include <svt/analyze/label_measures.hpp>
 #include <svt/analyze/selection.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/gltf/sheet_surfaces.hpp>
 #include <svt/writers/gltf/straight_points.hpp>
+#include <svt/writers/tiles3d/building_table.hpp>
 #include <svt/writers/tiles3d/property_table.hpp>
 #include <svt/writers/tiles3d/tile_glb.hpp>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace svt::writers {
@@ -31,7 +35,6 @@ GltfJson metadataOf(const LabelHulls& hulls, std::size_t begin, std::size_t end,
                     GltfBuffer& buffer) {
     std::vector<std::string> ids, names, classes, parents, storeys, attributes;
     std::vector<double> volumes;
-    std::vector<std::uint32_t> firsts, counts;
     const auto& labels = hulls.volume->labels.labels;
     for (std::size_t s = begin; s < end; ++s) {
         const volume::Label& label = hulls.label(s);
@@ -41,24 +44,49 @@ GltfJson metadataOf(const LabelHulls& hulls, std::size_t begin, std::size_t end,
         parents.push_back(label.parent < labels.size() ? labels[label.parent].id : std::string());
         storeys.push_back(texts.storeys[hulls.surfaces[s].label]);
         volumes.push_back(texts.volumes[hulls.surfaces[s].label]);
-        firsts.push_back(label.first);
-        counts.push_back(label.count);
         attributes.push_back(attributesText(label));
     }
     PropertyTable table(buffer, end - begin);
-    table.strings("id", "id of the feature in the model", ids);
+    table.strings("id", "id in the model", ids);
     const auto hasAny = [](const std::vector<std::string>& texts) {
         return std::any_of(texts.begin(), texts.end(), [](const std::string& text) { return !text.empty(); });
     };
-    if (hasAny(names)) table.strings("name", "name of the feature, may be empty", names);
-    table.names("class", "class of CityGML", classes);
+    table.namesBesideIds(names, ids);
+    table.names("class", "", classes);
     table.names("parent", "id of the feature that it is a part of", parents);
-    if (hasAny(storeys)) table.names("storey", "name of its storey, may be empty", storeys);
-    table.knownNumbers("volume", "cubic metres", volumes);
-    table.numbers("firstScalar", "first value of its voxels in the volume", firsts);
-    table.numbers("scalarCount", "number of values of its voxels", counts);
+    if (hasAny(storeys)) table.names("storey", "name of its storey", storeys);
+    table.knownNumbers("volume", "m3", volumes);
     table.attributes(attributes);
-    return table.extension("component", "a component of a building");
+    return table.extension("component");
+}
+
+/// Adds the surfaces with the numbers of their buildings. \return the buildings, in the order of their labels
+std::vector<BuildingRow> appendBuildings(const LabelHulls& hulls, std::size_t begin, std::size_t end, TileMesh& mesh) {
+    const volume::SemanticVolume& volume = *hulls.volume;
+    const std::vector<std::uint32_t> buildingOf = buildingOfLabels(volume.labels);
+    const analyze::Extents extents(volume.labels);
+    const analyze::KnownVolumes volumes(volume.labels, volume.grid, extents);
+    const double bottom = lowerCorner(volume.grid).z;
+    std::map<std::uint32_t, std::uint32_t> rowOf;
+    for (std::size_t s = begin; s < end; ++s) rowOf.emplace(buildingOf[hulls.surfaces[s].label], 0);
+    std::vector<BuildingRow> rows;
+    for (auto& [label, row] : rowOf) {
+        row = static_cast<std::uint32_t>(rows.size());
+        rows.push_back({volume.labels.labels[label], volumes.of(label).volume.value_or(0)});
+    }
+    for (std::size_t s = begin; s < end; ++s) {
+        const std::uint32_t row = rowOf.at(buildingOf[hulls.surfaces[s].label]);
+        appendSurface(hulls, s, row, mesh);
+        for (std::size_t v = 0; v < hulls.positions[s].size(); ++v) {
+            const double height = bottom + hulls.fromCorner(s, v).z;
+            rows[row].lowest = std::min(rows[row].lowest, height);
+            rows[row].highest = std::max(rows[row].highest, height);
+        }
+    }
+    // A building whose faces are all covered has no extent.
+    for (BuildingRow& row : rows)
+        if (!(row.lowest <= row.highest)) row.lowest = row.highest = bottom;
+    return rows;
 }
 
 }  // namespace
@@ -113,13 +141,20 @@ Box3d boxOfHulls(const LabelHulls& hulls, std::size_t begin, std::size_t end) {
 }
 
 Result<std::string> makeFeatureGlb(const LabelHulls& hulls, std::size_t begin, std::size_t end,
-                                   const FeatureTexts& texts, bool isCompressed) {
+                                   const FeatureTexts& texts, const TilesetWriteOptions& options) {
+    const TileCoding coding{kFinestStep, options.isCompressed};
     TileMesh mesh;
     mesh.isDoubleSided = hulls.hasMeshes;
+    if (options.isPerBuilding) {
+        const std::vector<BuildingRow> buildings = appendBuildings(hulls, begin, end, mesh);
+        return makeTileGlb(
+            mesh, buildings.size(), [&](GltfBuffer& buffer) { return buildingTable(buildings, true, buffer); }, {},
+            coding);
+    }
     for (std::size_t s = begin; s < end; ++s) appendSurface(hulls, s, static_cast<std::uint32_t>(s - begin), mesh);
-    return makeTileGlb(mesh, end - begin,
-                       [&](GltfBuffer& buffer) { return metadataOf(hulls, begin, end, texts, buffer); }, {},
-                       {kFinestStep, isCompressed});
+    return makeTileGlb(
+        mesh, end - begin, [&](GltfBuffer& buffer) { return metadataOf(hulls, begin, end, texts, buffer); }, {},
+        coding);
 }
 
 }  // namespace svt::writers

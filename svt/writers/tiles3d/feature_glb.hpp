@@ -25,12 +25,11 @@ struct FeatureTexts {
 [[nodiscard]] Result<LabelHulls> makeTileHulls(const volume::SemanticVolume& volume, MeshChoice choice,
                                                const VolumeWriteOptions& options);
 
-/// Surfaces [begin, end) as a .glb, y up, metres from the lower corner of the grid; feature n is surface begin + n.
-/// Shading is flat: a vertex has the normal of its face, and is stored once per face.
-/// \param isCompressed  by EXT_meshopt_compression
+/// Surfaces [begin, end) as a .glb, y up, metres from the lower corner of the grid. Feature n is surface begin + n, or
+/// the nth building. Shading is flat: a vertex has the normal of its face, and is stored once per face.
 /// \return the file, or GridTooLarge if it would reach the limit of 4 GiB
 [[nodiscard]] Result<std::string> makeFeatureGlb(const LabelHulls& hulls, std::size_t begin, std::size_t end,
-                                                 const FeatureTexts& texts, bool isCompressed = false);
+                                                 const FeatureTexts& texts, const TilesetWriteOptions& options = {});
 
 /// The box around surfaces [begin, end), world directions, metres from the lower corner.
 [[nodiscard]] Box3d boxOfHulls(const LabelHulls& hulls, std::size_t begin, std::size_t end);

@@ -8,6 +8,19 @@
 #include <map>
 
 namespace svt::writers {
+namespace {
+
+// A property of a class, which all rows have.
+GltfBuffer::Json propertyOf(std::string_view description, const char* type) {
+    GltfBuffer::Json property = GltfBuffer::Json::object();
+    if (!description.empty()) property["description"] = description;
+    property["type"] = type;
+    property["required"] = true;
+    return property;
+}
+
+}  // namespace
+
 std::size_t GltfBuffer::add(std::span<const std::byte> bytes, int stride, int target) {
     bytes_.resize((bytes_.size() + 7) / 8 * 8, '\0');
     Json view{{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}};
@@ -19,6 +32,7 @@ std::size_t GltfBuffer::add(std::span<const std::byte> bytes, int stride, int ta
 }
 
 std::size_t GltfBuffer::addVertices(std::span<const std::byte> bytes, std::size_t each, int target) {
+    if (!isCompressed_) return add(bytes, static_cast<int>(each), target);
     const std::size_t view =
         addCompressed(compressVertices(bytes, each), "ATTRIBUTES", bytes.size() / each, each, target);
     views_[view]["byteStride"] = each;
@@ -26,6 +40,11 @@ std::size_t GltfBuffer::addVertices(std::span<const std::byte> bytes, std::size_
 }
 
 std::size_t GltfBuffer::addIndices(std::span<const std::uint32_t> indices, std::size_t each, int target) {
+    if (!isCompressed_ && each == 2) {
+        const std::vector<std::uint16_t> small(indices.begin(), indices.end());
+        return add(std::as_bytes(std::span(small)), 0, target);
+    }
+    if (!isCompressed_) return add(std::as_bytes(indices), 0, target);
     return addCompressed(compressIndices(indices), "INDICES", indices.size(), each, target);
 }
 
@@ -67,10 +86,16 @@ void PropertyTable::strings(const char* name, std::string_view description, cons
     }
     // A buffer view has a byte at least.
     if (text.empty()) text = " ";
-    class_[name] = {{"description", description}, {"type", "STRING"}, {"required", true}};
+    class_[name] = propertyOf(description, "STRING");
     const std::size_t view = buffer_.add(std::as_bytes(std::span(text)));
     table_[name] = {{"values", view}};
     addOffsets(offsets, table_[name]);
+}
+
+void PropertyTable::namesBesideIds(const std::vector<std::string>& names, const std::vector<std::string>& ids) {
+    SVT_CHECK(names.size() == ids.size());
+    for (std::size_t n = 0; n < names.size(); ++n)
+        if (!names[n].empty() && names[n] != ids[n]) return strings("name", "", names);
 }
 
 void PropertyTable::names(const char* name, std::string_view description, const std::vector<std::string>& values) {
@@ -85,7 +110,8 @@ void PropertyTable::names(const char* name, std::string_view description, const 
     }
     const auto [view, type] = addSmall(numbers);
     enums_[name] = {{"valueType", type}, {"values", std::move(choices)}};
-    class_[name] = {{"description", description}, {"type", "ENUM"}, {"enumType", name}, {"required", true}};
+    class_[name] = propertyOf(description, "ENUM");
+    class_[name]["enumType"] = name;
     table_[name] = {{"values", view}};
 }
 
@@ -101,51 +127,36 @@ std::pair<std::size_t, const char*> PropertyTable::addSmall(const std::vector<st
 }
 
 void PropertyTable::attributes(const std::vector<std::string>& values) {
-    strings("attributes", "attributes of the feature as JSON; none: an empty text, which stands for {}", values);
+    strings("attributes", "JSON; empty: none", values);
     class_["attributes"]["required"] = false;
     class_["attributes"]["noData"] = "";
     class_["attributes"]["default"] = "{}";
 }
 
 void PropertyTable::addOffsets(const std::vector<std::uint32_t>& offsets, Json& column) {
-    if (offsets.back() > 0xFFFF) {
-        column["stringOffsets"] = buffer_.add(std::as_bytes(std::span(offsets)));
-        return;
-    }
-    const std::vector<std::uint16_t> small(offsets.begin(), offsets.end());
-    column["stringOffsets"] = buffer_.add(std::as_bytes(std::span(small)));
-    column["stringOffsetType"] = "UINT16";
-}
-
-template <class T>
-void PropertyTable::column(const char* name, std::string_view description, const char* componentType,
-                           const std::vector<T>& values) {
-    SVT_CHECK(values.size() == rows_);
-    class_[name] = {
-        {"description", description}, {"type", "SCALAR"}, {"componentType", componentType}, {"required", true}};
-    table_[name] = {{"values", buffer_.add(std::as_bytes(std::span(values)))}};
+    const bool isLong = offsets.back() > 0xFFFF;
+    column["stringOffsets"] = buffer_.addIndices(offsets, isLong ? 4 : 2, 0);
+    if (!isLong) column["stringOffsetType"] = "UINT16";
 }
 
 void PropertyTable::numbers(const char* name, std::string_view description, const std::vector<double>& values) {
-    column(name, description, "FLOAT64", values);
+    SVT_CHECK(values.size() == rows_);
+    const std::vector<float> floats(values.begin(), values.end());
+    class_[name] = propertyOf(description, "SCALAR");
+    class_[name]["componentType"] = "FLOAT32";
+    table_[name] = {{"values", buffer_.add(std::as_bytes(std::span(floats)))}};
 }
 void PropertyTable::knownNumbers(const char* name, std::string_view description, const std::vector<double>& values) {
     numbers(name, description, values);
     class_[name]["required"] = false;
     class_[name]["noData"] = 0.0;
 }
-void PropertyTable::numbers(const char* name, std::string_view description, const std::vector<std::uint32_t>& values) {
-    SVT_CHECK(values.size() == rows_);
-    const auto [view, type] = addSmall(values);
-    class_[name] = {{"description", description}, {"type", "SCALAR"}, {"componentType", type}, {"required", true}};
-    table_[name] = {{"values", view}};
-}
 
-PropertyTable::Json PropertyTable::extension(const char* name, std::string_view description) const {
+PropertyTable::Json PropertyTable::extension(const char* name) const {
     Json schema{{"id", "svt"}};
     if (!enums_.empty()) schema["enums"] = enums_;
-    schema["classes"][name] = {{"name", name}, {"description", description}, {"properties", class_}};
-    Json table{{"name", name}, {"class", name}, {"count", rows_}, {"properties", table_}};
+    schema["classes"][name]["properties"] = class_;
+    Json table{{"class", name}, {"count", rows_}, {"properties", table_}};
     return {{"schema", std::move(schema)}, {"propertyTables", Json::array({std::move(table)})}};
 }
 

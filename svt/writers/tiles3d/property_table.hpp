@@ -22,15 +22,18 @@ class GltfBuffer {
 public:
     using Json = nlohmann::ordered_json;
 
+    /// \param isCompressed  views that addVertices() and addIndices() add have the form of EXT_meshopt_compression
+    explicit GltfBuffer(bool isCompressed = false) : isCompressed_(isCompressed) {}
+
     /// \param stride  bytes from vertex to vertex; 0: no vertices
     /// \param target  of OpenGL; 0: none
     /// \return the number of the buffer view
     std::size_t add(std::span<const std::byte> bytes, int stride = 0, int target = 0);
 
-    /// Adds bytes in the compressed form of EXT_meshopt_compression.
     /// \param bytes  as they are when decoded
     /// \param each   bytes of a vertex, a multiple of 4, or of an index, 2 or 4
     std::size_t addVertices(std::span<const std::byte> bytes, std::size_t each, int target);
+    /// Indices of vertices, or any numbers that mostly grow in equal steps.
     std::size_t addIndices(std::span<const std::uint32_t> indices, std::size_t each, int target);
 
     /// Bytes of the decoded views; 0: nothing is compressed. They are a second buffer, which no file has.
@@ -45,6 +48,7 @@ private:
     Json views_ = Json::array();
     std::string bytes_;
     std::size_t decoded_ = 0;
+    bool isCompressed_ = false;
 };
 
 /// The attributes of a label as a JSON object, for a column: single values as texts, several values as arrays. Empty
@@ -58,28 +62,27 @@ public:
 
     PropertyTable(GltfBuffer& buffer, std::size_t rows) : buffer_(buffer), rows_(rows) {}
 
+    /// \param description  empty: none
     void strings(const char* name, std::string_view description, const std::vector<std::string>& values);
+    /// The column "name", unless each name is empty or the id.
+    void namesBesideIds(const std::vector<std::string>& names, const std::vector<std::string>& ids);
     /// Texts that repeat, as an enumeration: each text once in the schema, and its number in each row.
     void names(const char* name, std::string_view description, const std::vector<std::string>& values);
     /// The column of attributesText(). Readers that know defaults see {} for an empty text.
     void attributes(const std::vector<std::string>& values);
+    /// As 32-bit floats, which hold seven digits.
     void numbers(const char* name, std::string_view description, const std::vector<double>& values);
-    /// In the smallest type that holds them, of one, two or four bytes.
-    void numbers(const char* name, std::string_view description, const std::vector<std::uint32_t>& values);
     /// Numbers of which 0 means that the value is unknown (`noData`).
     void knownNumbers(const char* name, std::string_view description, const std::vector<double>& values);
 
     /// The extension: schema with the class `name`, and the table.
-    [[nodiscard]] Json extension(const char* name, std::string_view description) const;
+    [[nodiscard]] Json extension(const char* name) const;
 
 private:
     // In the smallest type that holds them, of two or four bytes.
     void addOffsets(const std::vector<std::uint32_t>& offsets, Json& column);
     // \return the view and the type
     std::pair<std::size_t, const char*> addSmall(const std::vector<std::uint32_t>& values);
-    template <class T>
-    void column(const char* name, std::string_view description, const char* componentType,
-                const std::vector<T>& values);
 
     GltfBuffer& buffer_;
     std::size_t rows_;

@@ -20,6 +20,7 @@ constexpr int kByte = 5120, kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsign
 constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
 constexpr std::size_t kMostColors = 16;  // primitives of one colour each
 constexpr float kSteps = 65535;
+constexpr double kStepsOfEdge = 64;  // of a short edge
 
 /// The triangles of a primitive. All primitives share the vertices, in the order of features: corners of a feature that
 /// lie close to each other compress well.
@@ -50,16 +51,40 @@ std::vector<TilePart> partsOf(const TileMesh& mesh) {
     return parts;
 }
 
+/// The length that a tenth of the edges does not reach, metres.
+double detailOf(const TileMesh& mesh) {
+    std::vector<float> lengths;
+    lengths.reserve(mesh.indices.size());
+    for (std::size_t n = 0; n < mesh.indices.size(); ++n) {
+        const std::size_t next = n % 3 == 2 ? n - 2 : n + 1;
+        const Vec3d edge = toDouble(mesh.positions[mesh.indices[next]]) - toDouble(mesh.positions[mesh.indices[n]]);
+        lengths.push_back(static_cast<float>(length(edge)));
+    }
+    const auto tenth = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 10);
+    std::nth_element(lengths.begin(), tenth, lengths.end());
+    return *tenth;
+}
+
+/// Most places are those of several vertices, one per face. The compression of a web server finds them again, but not in
+/// differences between vertices.
+bool isRepeated(std::vector<std::array<std::uint16_t, 4>> places) {
+    const std::size_t count = places.size();
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    return places.size() * 5 < count * 3;
+}
+
 /// The buffer and accessors while primitives are added.
 class TileBuffer {
 public:
-    TileBuffer(const TileMesh& mesh, GltfBuffer& buffer, const TileCoding& coding)
-        : mesh_(mesh), buffer_(buffer), isCompressed_(coding.isCompressed) {
+    TileBuffer(const TileMesh& mesh, GltfBuffer& buffer, const TileCoding& coding) : mesh_(mesh), buffer_(buffer) {
         const auto [low, high] = extentOf(mesh.positions);
         low_ = low;
         const float longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-        scale_ = longest / kSteps;
-        isQuantized_ = double(scale_) <= coding.mostStep && longest > 0;
+        isQuantized_ = double(longest / kSteps) <= coding.mostStep && longest > 0;
+        // Larger steps than necessary: smaller numbers, of fewer digits.
+        scale_ =
+            std::max(longest / kSteps, static_cast<float>(std::min(coding.mostStep, detailOf(mesh) / kStepsOfEdge)));
     }
 
     void addAttributes(bool hasColors, std::size_t features) {
@@ -91,10 +116,10 @@ private:
         return accessors_.size() - 1;
     }
     template <class T>
-    std::size_t addVertices(const std::vector<T>& values, int type, const char* shape) {
+    std::size_t addVertices(const std::vector<T>& values, int type, const char* shape, bool isPacked = true) {
         const auto bytes = std::as_bytes(std::span(values));
-        const std::size_t view = isCompressed_ ? buffer_.addVertices(bytes, sizeof(T), kVertexTarget)
-                                               : buffer_.add(bytes, sizeof(T), kVertexTarget);
+        const std::size_t view = isPacked ? buffer_.addVertices(bytes, sizeof(T), kVertexTarget)
+                                          : buffer_.add(bytes, sizeof(T), kVertexTarget);
         return add({{"bufferView", view}, {"componentType", type}, {"count", values.size()}, {"type", shape}});
     }
     template <class T>
@@ -125,7 +150,7 @@ private:
                 most[axis] = std::max(most[axis], place[axis]);
             }
         }
-        const std::size_t number = addVertices(places, kUnsignedShort, "VEC3");
+        const std::size_t number = addVertices(places, kUnsignedShort, "VEC3", !isRepeated(places));
         accessors_[number]["min"] = least;
         accessors_[number]["max"] = most;
         return number;
@@ -143,11 +168,7 @@ private:
 
     std::size_t indices(const TilePart& part) {
         const bool isShort = mesh_.positions.size() < 65535;
-        std::vector<std::uint16_t> small;
-        if (isShort) small.assign(part.indices.begin(), part.indices.end());
-        const auto bytes = isShort ? std::as_bytes(std::span(small)) : std::as_bytes(std::span(part.indices));
-        const std::size_t view = isCompressed_ ? buffer_.addIndices(part.indices, isShort ? 2 : 4, kIndexTarget)
-                                               : buffer_.add(bytes, 0, kIndexTarget);
+        const std::size_t view = buffer_.addIndices(part.indices, isShort ? 2 : 4, kIndexTarget);
         return add({{"bufferView", view},
                     {"componentType", isShort ? kUnsignedShort : kUnsignedInt},
                     {"count", part.indices.size()},
@@ -160,7 +181,6 @@ private:
     Vec3f low_{};
     float scale_ = 1;
     bool isQuantized_ = true;
-    bool isCompressed_ = false;
 };
 
 TileJson materialOf(const TilePart& part, bool isDoubleSided) {
@@ -170,7 +190,7 @@ TileJson materialOf(const TilePart& part, bool isDoubleSided) {
         for (const std::uint8_t channel : part.color) factor.push_back(std::round(channel / 255.0 * 1e4) / 1e4);
         looks["baseColorFactor"] = std::move(factor);
     }
-    TileJson material{{"name", part.isClear() ? "clear" : "opaque"}, {"pbrMetallicRoughness", std::move(looks)}};
+    TileJson material{{"pbrMetallicRoughness", std::move(looks)}};
     if (part.isClear()) material["alphaMode"] = "BLEND";
     if (isDoubleSided) material["doubleSided"] = true;
     return material;
@@ -186,7 +206,7 @@ Result<std::string> makeTileGlb(const TileMesh& mesh, std::size_t features,
         return Error(Code::GridTooLarge,
                      fmt::format("a tile of {} bytes is more than a .glb can be; use --level", bytes));
     if (mesh.indices.empty()) return Error(Code::NothingSelected, "the surfaces have no area");
-    GltfBuffer buffer;
+    GltfBuffer buffer(coding.isCompressed);
     TileBuffer tile(mesh, buffer, coding);
     TileJson primitives = TileJson::array(), materials = TileJson::array();
     const std::vector<TilePart> parts = partsOf(mesh);

@@ -3,9 +3,9 @@
 /// The content of a tile as .glb: its triangles, whose vertices reference their features (EXT_mesh_features), and the
 /// table of features (EXT_structural_metadata).
 ///
-/// A vertex has 16 bytes (KHR_mesh_quantization): its place in 65535 steps of the longest side (8 bytes), its normal in
-/// 127 steps (4), and the number of its feature (4). Places are 32-bit floats (12 bytes) if the steps would be too
-/// large. The colour is that of the material: one primitive per colour, all with the same
+/// A vertex has 16 bytes (KHR_mesh_quantization): its place in up to 65535 steps (8 bytes), its normal in
+/// 127 steps (4), and the number of its feature (4). A step is at most TileCoding::mostStep, and a 64th of short edges,
+/// unless the longest side needs more. Places are 32-bit floats (12 bytes) if the steps would be too large. The colour is that of the material: one primitive per colour, all with the same
 /// vertices; or 4 bytes more for tiles of many colours.
 
 #include <svt/core/result.hpp>
@@ -24,7 +24,9 @@ inline constexpr double kFinestStep = 0.01;  ///< largest step of places in fine
 
 struct TileCoding {
     double mostStep = kFinestStep;  ///< largest step of places, metres
-    bool isCompressed = false;      ///< vertices and indices by EXT_meshopt_compression
+    /// Vertices, indices and offsets of texts by EXT_meshopt_compression. Places that several faces have stay as they
+    /// are, because gzip makes them smaller.
+    bool isCompressed = false;
 };
 
 /// \param features  rows of the table

@@ -114,6 +114,47 @@ TEST(TileGlb, PlacesKeepAreaAndVolume) {
     EXPECT_EQ(tileOf(mesh, 0.1).json["accessors"][0]["componentType"], 5123);
 }
 
+TEST(TileGlb, StepsAreAsLargeAsTheDetailAllows) {
+    const auto stepOf = [](const TileMesh& mesh, double mostStep = kFinestStep) {
+        return tileOf(mesh, mostStep).json["nodes"][0]["scale"][0].get<double>();
+    };
+    TileMesh houses;
+    houses.append(boxFaces({0, 0, 0}, {10, 8, 6}), 0);
+    houses.append(boxFaces({250, 0, 0}, {260, 8, 6}), 1);
+    EXPECT_NEAR(stepOf(houses), kFinestStep, 1e-6);
+    EXPECT_NEAR(stepOf(houses, 0.05), 0.05, 1e-6);
+    EXPECT_NEAR(stepOf(houses, 10), 6.0 / 64, 1e-6) << "a tenth of the edges is shorter than 6 m, or as long";
+    // Bars of 5 cm need steps below a millimetre.
+    TileMesh bars;
+    for (int n = 0; n < 20; ++n) bars.append(boxFaces({n * 1.0, 0, 0}, {n + 0.05, 2, 0.05}), 0);
+    EXPECT_NEAR(stepOf(bars), 0.05 / 64, 1e-6);
+    bars.append(boxFaces({200, 0, 0}, {200.05, 2, 0.05}), 1);
+    EXPECT_NEAR(stepOf(bars), 200.05 / 65535, 1e-6) << "16 bits have no smaller step";
+}
+
+TEST(TileGlb, RepeatedPlacesStayPlainInCompressedTiles) {
+    const auto extensionsOf = [](const TileMesh& mesh) {
+        auto file =
+            makeTileGlb(mesh, 2, [](GltfBuffer&) { return nlohmann::ordered_json::object(); }, {}, {kFinestStep, true});
+        EXPECT_TRUE(file) << file.error().message();
+        const TileFile tile(*file);
+        std::vector<bool> isPacked;
+        for (const auto& view : tile.json["bufferViews"]) isPacked.push_back(view.contains("extensions"));
+        return isPacked;
+    };
+    TileMesh box;  // each corner belongs to three faces
+    box.append(boxFaces({0, 0, 0}, {10, 8, 6}), 0);
+    EXPECT_EQ(extensionsOf(box), (std::vector<bool>{false, true, true, true}));
+    TileMesh sheet;
+    FeatureFaces faces;
+    for (int n = 0; n < 20; ++n) faces.points.push_back({double(n / 2), double(n % 2), 0});
+    for (std::uint32_t n = 0; n + 2 < 20; ++n)
+        faces.triangles.push_back(n % 2 == 0 ? std::array{n, n + 2, n + 1} : std::array{n, n + 1, n + 2});
+    faces.colors.assign(faces.triangles.size(), {255, 0, 0, 255});
+    sheet.append(faces, 0);
+    EXPECT_EQ(extensionsOf(sheet), (std::vector<bool>{true, true, true, true}));
+}
+
 TEST(TileGlb, AColorIsThatOfAMaterialUnlessThereAreMany) {
     TileMesh mesh;
     mesh.append(boxFaces({0, 0, 0}, {1, 1, 1}, {10, 20, 30, 128}), 0);

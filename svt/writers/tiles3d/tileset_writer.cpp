@@ -2,8 +2,8 @@
 /// Writes the hulls of components as 3D Tiles 1.1, which Cesium, Unreal, Unity and ArcGIS show on the globe: a folder
 /// with `tileset.json` and tiles of some hundred thousand triangles, `0.glb`, `1.glb`, ...
 ///
-/// Vertices reference their component (EXT_mesh_features). A table contains id, name, class, parent, storey, volume,
-/// scalars and attributes of each component (EXT_structural_metadata).
+/// Vertices reference their component (EXT_mesh_features). A table contains id, name, class, parent, storey, volume
+/// and attributes of each component (EXT_structural_metadata). On request, features are buildings.
 ///
 /// Place: `root.transform` takes metres from the grid's lower corner (x, y, z of the world) to metres from the earth's
 /// centre (EPSG:4978). If the place comes from the CRS of the volume, the frame has the axes and the scale of the
@@ -51,7 +51,7 @@ Result<std::uint64_t> writeTileset(const volume::SemanticVolume& volume, const s
             triangles += hulls->surfaces[end++].triangles.size();
         SVT_DO(checkNotStopped(options.progress, "nothing"));
         Progress::tell(options.progress, "write", double(begin) / double(count));
-        SVT_TRY(glb, makeFeatureGlb(*hulls, begin, end, texts, options.tileset.isCompressed));
+        SVT_TRY(glb, makeFeatureGlb(*hulls, begin, end, texts, options.tileset));
         const std::string name = fmt::format("{}.glb", children.size());
         SVT_DO(folder.write(name, *glb));
         children.push_back({{"boundingVolume", boundingVolume(boxOfHulls(*hulls, begin, end))},
@@ -98,6 +98,9 @@ record::Members<TilesetWriteOptions> membersOf(const TilesetWriteOptions*) noexc
         record::member<&All::isCompressed>(
             "meshopt", "of a .3dtiles: compress the triangles by EXT_meshopt_compression, which the viewer must know",
             {.group = "Output", .option = "--meshopt"}),
+        record::member<&All::isPerBuilding>("buildings",
+                                            "of a .3dtiles: one feature per building, not per component, as in cities",
+                                            {.group = "Output", .option = "--per-building"}),
     };
     return kMembers;
 }
