@@ -9,6 +9,8 @@
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/writers/drawing_formats.hpp>
 #include <svt/writers/section_table.hpp>
+#include <svt/writers/sheet_writer.hpp>
+#include <svt/writers/view_drawing.hpp>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -101,6 +103,17 @@ py::bytes writeAs(const SectionObject& section, const std::string& format, doubl
     return py::bytes(text);
 }
 
+/// The drawing as a PDF, as writeAs(): (bytes, letters that it cannot show, whether Arabic or Hebrew text is unordered, why
+/// it has no layers).
+py::tuple pdfOf(const SectionObject& section, double scale, const std::optional<std::filesystem::path>& path) {
+    const writers::PdfFile pdf = longCall(py::none(), [&](const Progress*) -> Result<writers::PdfFile> {
+        SVT_TRY(made, writers::makeSectionPdf(section.drawing, section.volume->volume(), scale));
+        if (path) SVT_DO(writeFileAtomically(*path, made->bytes));
+        return std::move(*made);
+    });
+    return py::make_tuple(py::bytes(pdf.bytes), pdf.missingLetters, pdf.hasUnorderedText, writers::missingPdfLayers());
+}
+
 }  // namespace
 
 void bindSections(py::module_& module) {
@@ -123,7 +136,8 @@ void bindSections(py::module_& module) {
              })
         .def("polygons", &polygonsOf)
         .def("lines", &linesOf)
-        .def("write", &writeAs, py::arg("format"), py::arg("scale"), py::arg("path"));
+        .def("write", &writeAs, py::arg("format"), py::arg("scale"), py::arg("path"))
+        .def("pdf", &pdfOf, py::arg("scale"), py::arg("path"));
     module.def("section", &drawSection, py::arg("volume"), py::arg("plane"), py::arg("show"), py::arg("hide"),
                py::arg("spaces"), py::arg("min_area"), py::arg("tolerance"), py::arg("use_meshes"),
                py::arg("progress"));

@@ -171,6 +171,17 @@ void bindTotals(py::class_<LabelReference>& label) {
             "total_area", [](const LabelReference& l) { return measureOf(l).total.area; },
             "Surface of the label with its parts in m2; contacts between parts are inside.")
         .def_property_readonly(
+            "faces",
+            [](const LabelReference& l) {
+                const auto& areas = measuresOf(l.volume).faces[l.index];
+                py::dict faces;
+                for (std::size_t kind = 0; kind < areas.size(); ++kind)
+                    faces[py::str(std::string(analyze::kFaceKindNames[kind]))] = known(areas[kind]);
+                return faces;
+            },
+            "m2 of the model's faces of the label and its parts, by kind: roof, wall, ground, window, door. None: the "
+            "label lacks faces of the kind, or this volume keeps no mesh of them.")
+        .def_property_readonly(
             "parts",
             [](const LabelReference& l) {
                 std::vector<LabelReference> parts;

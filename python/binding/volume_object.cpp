@@ -27,6 +27,9 @@ const VolumeObject::Measures& VolumeObject::measures() {
         made.features = analyze::measureFeatures(extents, all, made.labels, made.contacts);
         const analyze::KnownVolumes volumes(volume_.labels, volume_.grid, extents);
         for (const std::uint32_t label : all) made.volumes.push_back(volumes.of(label));
+        const auto areas = analyze::meshAreas(volume_);
+        for (const std::uint32_t label : all)
+            made.faces.push_back(analyze::faceAreas(volume_.labels, extents.of(label), areas));
         measures_ = std::move(made);
     }
     return *measures_;

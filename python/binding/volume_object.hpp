@@ -4,6 +4,7 @@
 
 #include <svt/analyze/contacts.hpp>
 #include <svt/analyze/extents.hpp>
+#include <svt/analyze/face_areas.hpp>
 #include <svt/analyze/known_volumes.hpp>
 #include <svt/analyze/label_measures.hpp>
 #include <svt/analyze/selection.hpp>
@@ -12,6 +13,7 @@
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -43,6 +45,8 @@ public:
         std::vector<analyze::Measure> labels;
         std::vector<analyze::FeatureMeasure> features;  ///< by label: own, and with its parts
         std::vector<analyze::KnownVolume> volumes;      ///< by label, with its parts
+        std::vector<std::array<std::optional<double>, 5>>
+            faces;  ///< by label, with its parts; see analyze::faceAreas()
     };
     /// Contacts and areas of all labels. Cost: analyze::findContacts() once.
     [[nodiscard]] const Measures& measures();

@@ -103,6 +103,9 @@ class Label:
     def total_area(self) -> float:
         """m2 with its parts."""
     @property
+    def faces(self) -> dict[str, Optional[float]]:
+        """m2 of the model's faces with its parts, by kind: roof, wall, ground, window, door; None: unknown."""
+    @property
     def parts(self) -> list[Label]: ...
 
 class Volume:
@@ -156,6 +159,7 @@ class Section:
     def polygons(self, number: int) -> list[tuple[float, np.ndarray, list[np.ndarray]]]: ...
     def lines(self) -> list[tuple[int, np.ndarray]]: ...
     def write(self, format: str, scale: float, path: Optional[str]) -> bytes: ...
+    def pdf(self, scale: float, path: Optional[str]) -> tuple[bytes, str, bool, str]: ...
 
 class City:
     @property

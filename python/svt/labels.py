@@ -57,7 +57,7 @@ class Labels(Sequence):
             self._of_scalar.flags.writeable = False
         return self._of_scalar
 
-    def to_pandas(self, query: str = "all", *, attributes: bool = False) -> Any:
+    def to_pandas(self, query: str = "all", *, attributes: bool = False, faces: bool = False) -> Any:
         """The labels that a query selects, as a pandas.DataFrame with one row per label.
 
         The index is the number of the label. The columns are id, class_name, name, parent (an id), voxels, volume (m3
@@ -70,9 +70,12 @@ class Labels(Sequence):
         attributes
             Add a column ``attributes.NAME`` for each attribute; None where a label has no such attribute, a list where
             it has several values.
+        faces
+            Add the columns faces.roof, faces.wall, faces.ground, faces.window and faces.door: m2 of the model's faces
+            with all parts, as of :attr:`svt.Label.faces`. NaN: none, or unknown because the volume keeps no meshes.
         """
         labels = [self._native.label(index) for index in self._native.query(query)]
-        return to_pandas(columns_of_labels(labels, attributes), "Labels.to_pandas()")
+        return to_pandas(columns_of_labels(labels, attributes, faces), "Labels.to_pandas()")
 
     def _index(self) -> tuple[dict[str, int], dict[str, list[int]]]:
         if self._numbers is None:

@@ -5,6 +5,7 @@ import base64
 import html
 import json
 import os
+import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -143,6 +144,23 @@ class Section:
     def to_svg(self, path: PathLike | None = None, scale: float = 100) -> str:
         """The drawing to scale as SVG: `scale` 100 draws 1 m as 10 mm. Also written to `path` if given."""
         return self._text("svg", path, scale)
+
+    def to_pdf(self, path: PathLike | None = None, scale: float = 100) -> bytes:
+        """The drawing to scale as PDF. Also written to `path` if given.
+
+        Needs the cairo library. Warns (UserWarning) of letters that no font of the machine has, of Arabic and Hebrew text
+        without joined letters, and of missing layers.
+        """
+        pdf, letters, has_unordered_text, no_layers = self._native.pdf(scale, None if path is None else os.fspath(path))
+        if letters:
+            text = f"no font on this machine has the letters '{letters}'; the PDF has boxes in their place"
+            warnings.warn(f"{text}. Install a font that has them, or write SVG", stacklevel=2)
+        if has_unordered_text:
+            text = "the PDF has Arabic or Hebrew text from left to right, without joined letters"
+            warnings.warn(f"{text}, because the FriBidi library is missing", stacklevel=2)
+        if no_layers:
+            warnings.warn(no_layers, stacklevel=2)
+        return pdf
 
     def to_dxf(self, path: PathLike | None = None) -> str:
         """The drawing as DXF, in metres along u and v, with a layer per class. Also written to `path` if given, in code

@@ -17,7 +17,7 @@ def _known(values: list[float | None]) -> np.ndarray:
     return np.array([np.nan if value is None else value for value in values], float)
 
 
-def columns_of_labels(labels: Sequence[_native.Label], attributes: bool) -> dict[str, Any]:
+def columns_of_labels(labels: Sequence[_native.Label], attributes: bool, faces: bool) -> dict[str, Any]:
     """Column -> values, one per label. The columns are those of :meth:`svt.Labels.to_pandas`."""
     parents = [label.parent for label in labels]
     columns: dict[str, Any] = {
@@ -37,6 +37,10 @@ def columns_of_labels(labels: Sequence[_native.Label], attributes: bool) -> dict
         "total_area": _known([label.total_area if label.total_voxels else None for label in labels]),
         "filling": [label.filling for label in labels],
     }
+    if faces:
+        areas = [label.faces for label in labels]
+        kinds = ("roof", "wall", "ground", "window", "door")
+        columns.update({f"faces.{kind}": _known([each[kind] for each in areas]) for kind in kinds})
     if attributes:
         known = [label.attributes for label in labels]
         names: dict[str, None] = {}  # in the order of the model

@@ -25,6 +25,9 @@ def bodies_and_surfaces():
     )
 
 
+KINDS = ("roof", "wall", "ground", "window", "door")
+
+
 class Tables(unittest.TestCase):
     @needs("pandas")
     def test_labels_are_rows_with_the_numbers_of_their_properties(self):
@@ -42,6 +45,22 @@ class Tables(unittest.TestCase):
         self.assertEqual((row["voxels"], row["volume"]), (kitchen.voxels, kitchen.volume))
         self.assertEqual((row["area"], row["outside_area"]), (kitchen.area, kitchen.outside_area))
         self.assertEqual((row["total_volume"], row["total_area"]), (kitchen.total_volume, kitchen.total_area))
+
+    @needs("pandas")
+    def test_faces_are_those_of_the_model(self):
+        v = house()
+        table = v.labels.to_pandas("class=Window", faces=True)
+        self.assertEqual([name for name in table.columns if name.startswith("faces.")], ["faces." + k for k in KINDS])
+        # A frame of 6 cm, bars of 5 cm, 7 cm deep, two by two panes; the panes count no second time.
+        across, up = 2.2 - 0.17, 2.3 - 0.17
+        frame = 2 * (2.2 * 2.3 - across * up) + 0.07 * 2 * (2.2 + 2.3) + 0.07 * 4 * (across + up)
+        terrace = v.labels["Terrace window"]
+        self.assertAlmostEqual(table.loc[terrace.index]["faces.window"], frame, places=4)
+        self.assertAlmostEqual(terrace.faces["window"], frame, places=4)
+        self.assertIsNone(terrace.faces["roof"])
+        self.assertTrue(table["faces.roof"].isna().all())
+        none = v.labels.to_pandas("class=Window")
+        self.assertFalse([name for name in none.columns if name.startswith("faces.")])
 
     @needs("pandas")
     def test_unknown_numbers_are_nan_and_not_zero(self):

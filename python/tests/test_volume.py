@@ -2,6 +2,7 @@
 import functools
 import os
 import unittest
+import warnings
 from typing import Callable
 
 import numpy as np
@@ -393,6 +394,23 @@ class Words(unittest.TestCase):
             section.to_svg(path("whole.svg"), scale=0)
         self.assertEqual(caught.exception.code, "E904")
         self.assertFalse(os.path.exists(path("whole.svg")))
+
+    def test_a_pdf_warns_of_letters_that_no_font_has(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            pdf = house().section("z=1.2").to_pdf(path("plan.pdf"))
+        self.assertEqual([str(w.message) for w in caught if "font" in str(w.message)], [])
+        self.assertTrue(pdf.startswith(b"%PDF-"))
+        with open(path("plan.pdf"), "rb") as file:
+            self.assertEqual(file.read(), pdf)
+        room = house().query("class=BuildingRoom")[0]
+        with open(house_file(), encoding="utf-8") as file:
+            text = file.read().replace(f"<gml:name>{room.name}</gml:name>", "<gml:name>\ue123</gml:name>")
+        with open(path("private.gml"), "w", encoding="utf-8") as file:
+            file.write(text)  # a letter for private use, which no font has
+        section = svt.build(path("private.gml"), spacing=0.1).section("z=1.2")
+        with self.assertWarnsRegex(UserWarning, "no font on this machine has the letters '\ue123'"):
+            section.to_pdf()
 
     def test_docstrings_name_every_keyword(self):
         for keyword in ("spacing", "dimension", "lod", "no_bodies", "threads"):

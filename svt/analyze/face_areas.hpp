@@ -21,10 +21,21 @@ inline constexpr std::array<std::string_view, 5> kFaceKindNames{"roof", "wall", 
 /// windows and doors all of theirs. Cost: O(labels + triangles).
 [[nodiscard]] std::vector<std::optional<double>> meshAreas(const volume::SemanticVolume& volume);
 
-/// m2 of the faces of each kind in an extent, by FaceKind. Empty: unknown, because the extent has no label of this kind,
-/// or one without a mesh. A part of a label that counts, such as a pane, is left out.
+/// A label whose faces count. A part of such a label, such as a pane, does not count.
+struct CountedFaces {
+    std::uint32_t label = 0;
+    FaceKind kind = FaceKind::Roof;
+    std::optional<double> area;  ///< m2; empty: unknown, it has no mesh
+};
+/// The labels of each kind in an extent, ascending. Each face of the model is one of one label.
 /// \param extent  ascending, see Extents
 /// \param areas   of meshAreas()
+[[nodiscard]] std::vector<CountedFaces> countedFaces(const volume::LabelTable& labels,
+                                                     std::span<const std::uint32_t> extent,
+                                                     std::span<const std::optional<double>> areas);
+
+/// m2 of the faces of each kind in an extent, by FaceKind. Empty: unknown, because the extent has no label of this kind,
+/// or one without a mesh. The parameters are those of countedFaces().
 [[nodiscard]] std::array<std::optional<double>, 5> faceAreas(const volume::LabelTable& labels,
                                                              std::span<const std::uint32_t> extent,
                                                              std::span<const std::optional<double>> areas);

@@ -161,6 +161,9 @@ private:
     std::vector<std::uint64_t> packSizes_;
 };
 
+/// Moves the meshes of a tile to SemanticVolume::footprints, as City::read() does.
+void keepAsFootprints(volume::SemanticVolume& tile);
+
 /// Chosen parts of a city as one volume.
 struct Extract {
     std::vector<TileKey> tiles;    ///< whole tiles

@@ -16,16 +16,20 @@
 
 namespace svt::city {
 
+/// The members of a tile that have its faces: see City::read() and City::readWithMeshes().
+enum class TileFaces : std::uint8_t { Footprints, Meshes };
+
 /// Reads the tiles of detail 0. Memory: one tile per thread.
 /// \param rectangle  west, south, east, north in metres
 /// \param threads    0: all cores
-/// \param work       called in the order of tiles, never twice at once; an error ends the pass
+/// \param work       called in the order of tiles, never twice at once; an error ends the pass. It may change the tile.
 /// \param isWanted   tiles that are read; null: all
 /// \return nothing, or an error of City::find(), City::read() or `work`; Cancelled
 [[nodiscard]] Result<void> forEachTile(const City& city, const std::array<double, 4>& rectangle, int threads,
                                        const Progress* progress,
-                                       const std::function<Result<void>(const volume::SemanticVolume&)>& work,
-                                       const std::function<bool(const IndexEntry&)>& isWanted = {});
+                                       const std::function<Result<void>(volume::SemanticVolume&)>& work,
+                                       const std::function<bool(const IndexEntry&)>& isWanted = {},
+                                       TileFaces faces = TileFaces::Footprints);
 
 /// Counts of the tiles of a city.
 struct TileCheck {

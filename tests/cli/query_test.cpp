@@ -44,6 +44,139 @@ TEST_F(TwoBoxReports, NeighboursShareAFaceAndMeetTheOutside) {
     EXPECT_EQ(report({"id=right", "--neighbours"})[1]["area"], rows[1]["area"]);
 }
 
+// A building of boundary surfaces, without a solid: a box with RoofSurface, four WallSurface and GroundSurface.
+std::string houseOfSurfaces(const std::string& id, const std::string& owner, double x, double width) {
+    static constexpr const char* kClasses[] = {"Ground", "Roof", "Wall", "Wall", "Wall", "Wall"};
+    std::string surfaces;
+    // One face of solid() as a member.
+    const auto member = [](const Face& face) {
+        const std::string text = solid({face});
+        const std::size_t begin = text.find("<gml:surfaceMember>"), end = text.find("</gml:CompositeSurface>");
+        return text.substr(begin, end - begin);
+    };
+    const std::vector<Face> faces = boxFaces(x, 5400000, 100, x + width, 5400006, 103);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        surfaces += fmt::format(
+            "<bldg:boundedBy><bldg:{0}Surface gml:id=\"{1}_{2}\"><bldg:lod2MultiSurface>"
+            "<gml:MultiSurface>{3}</gml:MultiSurface></bldg:lod2MultiSurface>"
+            "</bldg:{0}Surface></bldg:boundedBy>",
+            kClasses[f], id, f, member(faces[f]));
+    return fmt::format(
+        "<cityObjectMember><bldg:Building gml:id=\"{}\"><gen:stringAttribute "
+        "xmlns:gen=\"http://www.opengis.net/citygml/generics/2.0\" name=\"owner\"><gen:value>{}</gen:value>"
+        "</gen:stringAttribute>{}</bldg:Building></cityObjectMember>",
+        id, owner, surfaces);
+}
+
+// Three houses of 4, 5 and 7 x 6 x 3 m with space between them, of two owners.
+class FaceSums : public ::testing::Test {
+protected:
+    FaceSums() {
+        std::filesystem::create_directory(folder / "files");
+        writeText(folder / "files/three.gml",
+                  cityModel(houseOfSurfaces("a", "Ada", 500000, 4) + houseOfSurfaces("b", "Ada", 500006, 5) +
+                            houseOfSurfaces("c", "Ben", 500013, 7)));
+    }
+    // The faces of a row; wall: without openings.
+    static void expectFaces(const json& row, double roof, double wall) {
+        EXPECT_NEAR(row["roofFaces"].get<double>(), roof, 1e-4) << row;
+        EXPECT_NEAR(row["groundFaces"].get<double>(), roof, 1e-4) << row;
+        EXPECT_NEAR(row["wallFaces"].get<double>(), wall, 1e-4) << row;
+        EXPECT_TRUE(row["windowFaces"].is_null()) << row;
+        EXPECT_TRUE(row["doorFaces"].is_null()) << row;
+    }
+    void expectSums(const std::string& input) {
+        const auto ask = [&](std::vector<std::string> arguments) {
+            arguments.insert(arguments.begin(), {"query", input});
+            arguments.insert(arguments.end(), {"--with", "faces", "--json"});
+            return runSvtForJson(folder.path(), arguments);
+        };
+        // Owners, of the buildings and of all their parts: each face counts once.
+        for (const char* query : {"class=Building", "all"}) {
+            const json owners = ask({query, "--by", "owner"});
+            ASSERT_EQ(owners.size(), 2u) << owners;
+            EXPECT_EQ(owners[0]["owner"], "Ada");
+            expectFaces(owners[0], 24 + 30, 3 * (20 + 22));
+            expectFaces(owners[1], 42, 3 * 26);
+        }
+        const json classes = ask({"all", "--by", "class"});
+        for (const json& row : classes) {
+            const bool isRoof = row["class"] == "RoofSurface";
+            EXPECT_EQ(row["roofFaces"].is_null(), !isRoof) << row;
+            if (isRoof) EXPECT_NEAR(row["roofFaces"].get<double>(), 96, 1e-4);
+            if (row["class"] == "Building") EXPECT_TRUE(row["wallFaces"].is_null()) << "they count with the walls";
+        }
+        const json rows = ask({"id=b", "--sort", "volume"});
+        ASSERT_EQ(rows.size(), 1u);
+        expectFaces(rows[0], 30, 66);
+    }
+    TemporaryFolder folder;
+};
+
+TEST_F(FaceSums, CountEachFaceOnceByOwnerAndClass) {
+    expectSums("files/three.gml");
+    // The words of the table, and a file.
+    const CommandResult text =
+        runSvt(folder.path(), {"query", "files/three.gml", "all", "--by", "owner", "--with", "faces"});
+    EXPECT_NE(text.out.find("roof m2"), std::string::npos) << text.toString();
+    runSvtWell(folder.path(), {"query", "files/three.gml", "id=c", "-o", "c.csv", "--with", "faces"});
+    EXPECT_NE(readText(folder / "c.csv").find("roofFaces"), std::string::npos);
+    // Other columns of --with have no sums.
+    EXPECT_EQ(runSvt(folder.path(), {"query", "files/three.gml", "all", "--by", "class", "--with", "surface"}).exitCode,
+              2);
+}
+
+TEST_F(FaceSums, AreThoseOfCities) {
+    runSvtWell(folder.path(), {"city", "plan", "files", "-o", "city", "--spacing", "0.5", "-q"});
+    runSvtWell(folder.path(), {"city", "run", "city", "-q"});
+    expectSums("city");
+}
+
+TEST_F(FaceSums, AreUnknownWithoutMeshes) {
+    runSvtWell(folder.path(), {"build", "files/three.gml", "-o", "none.svt", "--vectors", "none", "--spacing", "0.5"});
+    const CommandResult none =
+        runSvt(folder.path(), {"query", "none.svt", "all", "--by", "owner", "--with", "faces", "--json"});
+    for (const json& row : none.json()) EXPECT_TRUE(row["roofFaces"].is_null() && row["wallFaces"].is_null()) << row;
+    EXPECT_NE(none.err.find("18 features have no mesh"), std::string::npos) << none.toString();
+}
+
+// The frame of a window of the sample house: 6 cm wide, bars of 5 cm, 7 cm deep, two by two panes.
+double frameArea(double width, double height) {
+    const double across = width - 0.17, up = height - 0.17;
+    return 2 * (width * height - across * up) + 0.07 * 2 * (width + height) + 0.07 * 4 * (across + up);
+}
+
+TEST(FaceSumsOfWindows, CountTheFrameAndNotItsPanes) {
+    const TemporaryFolder folder;
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    const auto ask = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"query", "house.gml"});
+        arguments.insert(arguments.end(), {"--spacing", "0.2", "--with", "faces", "--json"});
+        return runSvtForJson(folder.path(), arguments);
+    };
+    const double terrace = frameArea(2.2, 2.3), dining = frameArea(1.8, 1.4);
+    const std::string both = "under house_window_terrace or under house_window_dining";
+    for (const char* key : {"class", "storey"}) {
+        const json rows = ask({both, "--by", key});
+        ASSERT_EQ(rows.size(), 1u) << rows;
+        EXPECT_NEAR(rows[0]["windowFaces"].get<double>(), terrace + dining, 1e-4) << rows;
+        EXPECT_TRUE(rows[0]["roofFaces"].is_null());
+    }
+    EXPECT_EQ(ask({both, "--by", "storey"})[0]["storey"], "Ground floor");
+    // The sum of the storeys is that of all windows, and the sum of both classes that of the building.
+    const auto sumOf = [](const json& rows) {
+        double sum = 0;
+        for (const json& row : rows) sum += row["windowFaces"].get<double>();
+        return sum;
+    };
+    double ofWindows = 0;
+    for (const json& row : ask({"class=Window"})) ofWindows += row["faces"]["window"].get<double>();
+    EXPECT_NEAR(sumOf(ask({"class=Window", "--by", "storey"})), ofWindows, 1e-6);
+    const json classes = ask({"class=Window or class=WindowSurface", "--by", "class"});
+    ASSERT_EQ(classes.size(), 2u);
+    EXPECT_NEAR(sumOf(classes), ask({"class=Building"})[0]["faces"]["window"].get<double>(), 1e-6);
+}
+
 TEST(FeatureRows, LeaveUnknownMeasuresEmpty) {
     const TemporaryFolder folder;
     prepareHouse(folder.path(), "0.4");

@@ -482,7 +482,7 @@ def tileset(path):
                 names = {choice["value"]: choice["name"] for choice in told["values"]}
                 strings[name] = [names[int(number)] for number in numbers]
                 assert len(strings[name]) == table["count"]
-        volumes = np.frombuffer(view(table["properties"]["volume"]["values"]), "<f8")
+        volumes = np.frombuffer(view(table["properties"]["volume"]["values"]), "<f4")
         print(strings["id"], strings["name"], volumes.tolist())
         ids += strings["id"]
         box = np.array(tile["boundingVolume"]["box"])

@@ -4,9 +4,12 @@
 #include <apps/cli/city/feature_sums.hpp>
 #include <apps/cli/options/load_volume.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/query_reports.hpp>
 #include <apps/cli/output/table.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
+#include <svt/analyze/extents.hpp>
+#include <svt/analyze/face_areas.hpp>
 #include <svt/analyze/known_volumes.hpp>
 #include <svt/analyze/selection.hpp>
 #include <svt/city/city_view.hpp>
@@ -109,10 +112,19 @@ public:
     // The volume whose frame positions refer to.
     [[nodiscard]] const volume::SemanticVolume& frame() const noexcept { return frame_; }
 
-    Result<void> forEach(const std::function<Result<void>(const volume::SemanticVolume&)>& work) const {
-        if (!city_) return work(frame_);
+    // `work` takes a volume, and the areas of its meshes if faces are asked for.
+    using MeshAreas = std::vector<std::optional<double>>;
+    Result<void> forEach(
+        const std::function<Result<void>(const volume::SemanticVolume&, const MeshAreas&)>& work) const {
+        if (!city_) return work(frame_, query_.faces ? analyze::meshAreas(frame_) : MeshAreas());
         const TerminalProgress progress;
-        return city::forEachTile(*city_, rectangleOf(query_.box), query_.build.threads, progress.get(), work);
+        const auto withAreas = [&](volume::SemanticVolume& tile) -> Result<void> {
+            const MeshAreas areas = query_.faces ? analyze::meshAreas(tile) : MeshAreas();
+            city::keepAsFootprints(tile);
+            return work(tile, areas);
+        };
+        return city::forEachTile(*city_, rectangleOf(query_.box), query_.build.threads, progress.get(), withAreas, {},
+                                 city::TileFaces::Meshes);
     }
     // The same with only label tables, without columns.
     Result<void> forEachTable(
@@ -143,10 +155,12 @@ public:
             SVT_TRY(plane, drawing::parseSectionPlane(query_.cut, source_.frame()));
             plane_ = *plane;
         }
-        if (!query_.by.empty()) sums_.emplace(query_.by);
+        if (!query_.by.empty()) sums_.emplace(query_.by, query_.faces);
         if (!query_.output.empty()) SVT_DO(beginFile());
-        if (auto asked = source_.forEach([&](const volume::SemanticVolume& volume) { return ask(volume); }); !asked)
-            return asked;
+        const auto askVolume = [&](const auto& volume, const auto& areas) -> Result<void> {
+            return ask(volume, areas);
+        };
+        SVT_DO(source_.forEach(askVolume));
         return finish();
     }
 
@@ -217,18 +231,23 @@ private:
         return own[0] <= box[3] && box[0] <= own[2] && own[1] <= box[4] && box[1] <= own[3];
     }
 
-    Result<void> ask(const volume::SemanticVolume& volume) {
+    Result<void> ask(const volume::SemanticVolume& volume, const Source::MeshAreas& areas) {
         SVT_TRY(selected, select(volume.labels, volume.grid));
         if (selected->empty()) return {};
+        const analyze::Extents extents(volume.labels);
         std::vector<city::FeatureRow> counted;
         for (city::FeatureRow& row : rowsOf(volume, *selected)) {
             if ((plane_ && !row.isCut) || !isInBox(row)) continue;
             ++count_;
             if (sums_) counted.push_back(row);
             const volume::Label& label = volume.labels.labels[row.label];
-            SVT_DO(take(std::move(row), label));
+            Row faces;
+            if (query_.faces)
+                for (const auto& area : analyze::faceAreas(volume.labels, extents.of(row.label), areas))
+                    faces.push_back(area ? Cell(*area) : Cell());
+            SVT_DO(take(std::move(row), label, faces));
         }
-        if (sums_) sums_->add(volume, counted);
+        if (sums_) sums_->add(volume, counted, areas);
         return {};
     }
 
@@ -242,6 +261,7 @@ private:
     [[nodiscard]] std::vector<Column> columns() const {
         std::vector<Column> all = ownColumns();
         if (query_.roofs) all.push_back({"roofArea", "roof area", 2, CellType::Number});
+        if (query_.faces) addFaceColumns(all);
         return all;
     }
 
@@ -262,9 +282,10 @@ private:
         }
     }
 
-    Result<void> take(city::FeatureRow row, const volume::Label& label) {
+    Result<void> take(city::FeatureRow row, const volume::Label& label, const Row& faces) {
         Kept kept{0, cellsOf(row, label), std::move(row.footprint.polygons), std::move(row.roof.polygons), {}};
         if (query_.roofs) kept.cells.push_back(kept.roof.empty() ? Cell() : Cell(row.roof.area));
+        kept.cells.insert(kept.cells.end(), faces.begin(), faces.end());
         if (layer_) addAttributes(label, kept);
         if (!query_.sort.empty()) {
             constexpr double kUnknown = -1;  // last

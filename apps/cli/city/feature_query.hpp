@@ -20,6 +20,7 @@ struct FeatureQuery {
     std::string by, cut, sort;
     int first = 0;
     bool leaks = false, roofs = false;
+    bool faces = false;  ///< columns of faceAreas(), by --with; it does not count as asked
     TableFormat format = TableFormat::Text;
     pipeline::BuildOptions build;
 

@@ -1,8 +1,10 @@
 #include <apps/cli/city/feature_sums.hpp>
 
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/query_reports.hpp>
 
 #include <svt/analyze/exclusive_volumes.hpp>
+#include <svt/analyze/face_areas.hpp>
 #include <svt/core/attribute.hpp>
 #include <svt/core/text.hpp>
 #include <svt/drawing/storey_floors.hpp>
@@ -73,7 +75,7 @@ std::vector<std::string> valuesOf(const std::string& key, const volume::LabelTab
 
 }  // namespace
 
-FeatureSums::FeatureSums(const std::string& keys) {
+FeatureSums::FeatureSums(const std::string& keys, bool hasFaces) : hasFaces_(hasFaces) {
     for (std::size_t at = 0; at < keys.size();) {
         const std::size_t comma = std::min(keys.find(',', at), keys.size());
         keys_.push_back(keys.substr(at, comma - at));
@@ -81,7 +83,8 @@ FeatureSums::FeatureSums(const std::string& keys) {
     }
 }
 
-void FeatureSums::add(const volume::SemanticVolume& volume, std::span<const city::FeatureRow> rows) {
+void FeatureSums::add(const volume::SemanticVolume& volume, std::span<const city::FeatureRow> rows,
+                      std::span<const std::optional<double>> meshAreas) {
     const volume::LabelTable& table = volume.labels;
     const std::size_t count = table.labels.size();
     const analyze::Extents extents(table);
@@ -105,6 +108,21 @@ void FeatureSums::add(const volume::SemanticVolume& volume, std::span<const city
         sumOf[l]->counted += own[l].countedVolume;
     }
     addAreas(table, rows, extents, own, sumOf);
+    if (hasFaces_) addFaces(table, meshAreas, sumOf);
+}
+
+void FeatureSums::addFaces(const volume::LabelTable& table, std::span<const std::optional<double>> meshAreas,
+                           const std::vector<Sum*>& sumOf) {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t l = 0; l < sumOf.size(); ++l)
+        if (sumOf[l] != nullptr) all.push_back(l);
+    for (const analyze::CountedFaces& faces : analyze::countedFaces(table, all, meshAreas)) {
+        Sum& sum = *sumOf[faces.label];
+        const auto kind = static_cast<std::size_t>(faces.kind);
+        withoutMesh_ += !faces.area;
+        (faces.area ? sum.hasFaces : sum.hasUnknownFaces)[kind] = true;
+        sum.faces[kind] += faces.area.value_or(0);
+    }
 }
 
 // The largest of features that contain each other counts. Volumes without counted parts are exact as they are. A feature
@@ -193,6 +211,7 @@ Table FeatureSums::table() const {
                               {"countedVolume"},
                               {"volume"}};  // deprecated name of totalVolume
     table.columns.insert(table.columns.end(), std::begin(columns), std::end(columns));
+    if (hasFaces_) addFaceColumns(table.columns);
     for (const auto& [values, sum] : sums_) {
         Row& row = table.rows.emplace_back();
         for (const std::string& value : values) row.push_back(value.empty() ? Cell() : Cell(value));
@@ -202,6 +221,8 @@ Table FeatureSums::table() const {
         row.push_back(known(sum.hasArea, sum.area));
         row.push_back(known(sum.hasVolume, sum.counted));
         row.push_back(known(sum.hasVolume, sum.volume));
+        for (std::size_t kind = 0; hasFaces_ && kind < sum.faces.size(); ++kind)
+            row.push_back(known(sum.hasFaces[kind] && !sum.hasUnknownFaces[kind], sum.faces[kind]));
     }
     return table;
 }
@@ -225,6 +246,9 @@ void FeatureSums::note() const {
     };
     noteMissing(withoutVolume_, "volume", "solids");
     noteMissing(withoutVoxels_, "area", "voxels");
+    if (withoutMesh_ > 0)
+        cli::note(fmt::format("{} features have no mesh in this volume: the areas of faces of their rows are unknown",
+                              withoutMesh_));
 }
 
 }  // namespace svt::cli

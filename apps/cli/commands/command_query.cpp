@@ -128,14 +128,17 @@ Result<int> runCityOverlaps(const QueryArguments& arguments) {
 Result<int> runFeatures(const QueryArguments& arguments) {
     if (isCity(arguments.input) && arguments.overlaps && !arguments.features.isAsked())
         return runCityOverlaps(arguments);
-    if (arguments.reportCount() > 0)
+    const bool hasFaces = arguments.with == "faces";
+    if (arguments.reportCount() > (hasFaces ? 1 : 0))
         return Error(Code::BadArgument,
                      isCity(arguments.input)
                          ? "reports need one volume; take a part of the city (svt city extract), or leave out "
-                           "--with, --neighbours, --along, --gaps, --areas, --owners and --parcels"
+                           "--neighbours, --along, --gaps, --areas, --owners, --parcels, and --with except for faces"
                          : "-o, --box, --by, --cut, --sort, --first, --leaks and --roofs exclude reports; leave out "
-                           "--with, --neighbours, --along, --overlaps, --gaps, --areas, --owners and --parcels");
+                           "--neighbours, --along, --overlaps, --gaps, --areas, --owners, --parcels, and --with except "
+                           "for faces");
     FeatureQuery query = arguments.features;
+    query.faces = hasFaces;
     query.input = arguments.input;
     query.query = arguments.query;
     query.build = arguments.build;

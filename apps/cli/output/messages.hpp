@@ -24,6 +24,7 @@ enum Exit {
     kInvalid = 4,
     kOutput = 5,
     kNoGraphics = 6,
+    kDifferent = 7,
     kLimit = 8,
     kCancelled = 9,
     kNoReader = 141  ///< that of SIGPIPE, even if the signal is ignored or does not exist

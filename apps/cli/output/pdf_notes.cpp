@@ -16,11 +16,10 @@ void notePdf(const writers::PdfFile& pdf) {
                         "font that has them (Debian: fonts-noto-cjk for Chinese, Japanese and Korean, "
                         "fonts-noto-core for other scripts), or write SVG where the command can",
                         pdf.missingLetters));
-    if (pdf.hasRightToLeft)
+    if (pdf.hasUnorderedText)
         note(
-            "the PDF has Arabic or Hebrew text from left to right, without joined letters; viewers of SVG show it in "
-            "its "
-            "order, so write SVG where the command can");
+            "the PDF has Arabic or Hebrew text from left to right, without joined letters, because the FriBidi library "
+            "is missing; install it (Debian: libfribidi0), or write SVG where the command can");
 }
 
 }  // namespace svt::cli

@@ -214,6 +214,11 @@ Result<With> parseWith(const std::string& text) {
     return with;
 }
 
+void addFaceColumns(std::vector<Column>& columns) {
+    for (const std::string_view kind : analyze::kFaceKindNames)
+        columns.push_back({std::string(kind) + "Faces", std::string(kind) + " m2", 2, writers::CellType::Number});
+}
+
 // Columns without a title are deprecated names: only JSON and CSV have them.
 Table featureTable(const volume::SemanticVolume& volume, const Labels& selected, const With& with, int threads) {
     using analyze::Measure;
@@ -232,9 +237,7 @@ Table featureTable(const volume::SemanticVolume& volume, const Labels& selected,
              {"totalSurface", "total m2"},
              {"ownOutside", "own m2 outside"},
              {"totalOutside", "total m2 outside"}});
-    if (with.faces)
-        for (const std::string_view kind : analyze::kFaceKindNames)
-            table.columns.push_back({std::string(kind) + "Faces", std::string(kind) + " m2"});
+    if (with.faces) addFaceColumns(table.columns);
     if (with.box) addBoxColumns(table.columns);
     add({{"volume", "best m3"}, {"voxels"}});
     if (with.volume) add({{"voxelVolume"}});

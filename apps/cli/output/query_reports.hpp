@@ -23,6 +23,8 @@ struct With {
 };
 [[nodiscard]] Result<With> parseWith(const std::string& text);
 
+/// Columns of m2 by analyze::FaceKind.
+void addFaceColumns(std::vector<Column>& columns);
 /// The features themselves.
 [[nodiscard]] Table featureTable(const volume::SemanticVolume& volume, const Labels& selected, const With& with,
                                  int threads);

@@ -40,16 +40,25 @@ std::vector<std::optional<double>> meshAreas(const volume::SemanticVolume& volum
     return areas;
 }
 
+std::vector<CountedFaces> countedFaces(const volume::LabelTable& table, std::span<const std::uint32_t> extent,
+                                       std::span<const std::optional<double>> areas) {
+    std::vector<CountedFaces> counted;
+    for (const std::uint32_t label : extent) {
+        const std::optional<FaceKind> kind = faceKindOf(table.labels[label].className);
+        if (kind && !isPartOfCounted(table, label, *kind, extent, areas))
+            counted.push_back({label, *kind, areas[label]});
+    }
+    return counted;
+}
+
 std::array<std::optional<double>, 5> faceAreas(const volume::LabelTable& table, std::span<const std::uint32_t> extent,
                                                std::span<const std::optional<double>> areas) {
     std::array<std::optional<double>, 5> sums;
     std::array<bool, 5> isUnknown{};
-    for (const std::uint32_t label : extent) {
-        const std::optional<FaceKind> kind = faceKindOf(table.labels[label].className);
-        if (!kind || isPartOfCounted(table, label, *kind, extent, areas)) continue;
-        const auto place = static_cast<std::size_t>(*kind);
-        if (areas[label])
-            sums[place] = sums[place].value_or(0) + *areas[label];
+    for (const CountedFaces& faces : countedFaces(table, extent, areas)) {
+        const auto place = static_cast<std::size_t>(faces.kind);
+        if (faces.area)
+            sums[place] = sums[place].value_or(0) + *faces.area;
         else
             isUnknown[place] = true;
     }

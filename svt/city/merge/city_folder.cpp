@@ -289,11 +289,14 @@ Result<std::string> City::readBytes(const IndexEntry& entry) const {
 
 Result<volume::SemanticVolume> City::read(const IndexEntry& entry) const {
     auto volume = readWithMeshes(entry);
-    if (volume && !volume->vectors.triangles.empty()) {
-        volume->footprints = std::move(volume->vectors);
-        volume->vectors = {};
-    }
+    if (volume) keepAsFootprints(*volume);
     return volume;
+}
+
+void keepAsFootprints(volume::SemanticVolume& tile) {
+    if (tile.vectors.triangles.empty()) return;
+    tile.footprints = std::move(tile.vectors);
+    tile.vectors = {};
 }
 
 Result<volume::SemanticVolume> City::readWithMeshes(const IndexEntry& entry) const {

@@ -8,9 +8,8 @@
 namespace svt::city {
 
 Result<void> forEachTile(const City& city, const std::array<double, 4>& rectangle, int threads,
-                         const Progress* progress,
-                         const std::function<Result<void>(const volume::SemanticVolume&)>& work,
-                         const std::function<bool(const IndexEntry&)>& isWanted) {
+                         const Progress* progress, const std::function<Result<void>(volume::SemanticVolume&)>& work,
+                         const std::function<bool(const IndexEntry&)>& isWanted, TileFaces faces) {
     SVT_TRY(entries, city.find(0, rectangle));
     if (isWanted) std::erase_if(*entries, [&](const IndexEntry& entry) { return !isWanted(entry); });
     const std::size_t batch = 2 * static_cast<std::size_t>(threads > 0 ? threads : hardwareThreads());
@@ -19,7 +18,10 @@ Result<void> forEachTile(const City& city, const std::array<double, 4>& rectangl
         const std::size_t count = std::min(batch, entries->size() - begin);
         std::vector<std::optional<Result<volume::SemanticVolume>>> read(count);
         parallelFor(count, 1, threads, [&](std::size_t from, std::size_t to) {
-            for (std::size_t n = from; n < to; ++n) read[n].emplace(city.read((*entries)[begin + n]));
+            for (std::size_t n = from; n < to; ++n) {
+                const IndexEntry& entry = (*entries)[begin + n];
+                read[n].emplace(faces == TileFaces::Meshes ? city.readWithMeshes(entry) : city.read(entry));
+            }
         });
         if (Progress::isCancelled(progress)) return Error(Code::Cancelled, "stopped between tiles");
         for (auto& volume : read) {
