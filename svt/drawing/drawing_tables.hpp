@@ -49,12 +49,16 @@ struct MeshPlan {
     std::uint32_t firstRun = 0, endRun = 0;      ///< of DrawingTables::runs(); equal without a mesh
     std::uint32_t firstPoint = 0, endPoint = 0;  ///< of PlanHulls::points
     double low = 0, high = 0;                    ///< metres above the grid's lower corner
+    /// Labels with the same number have the same triangles, one after the other, at another height: parts of equal
+    /// storeys. Heights differ by rounding, positions in plan not at all. They share the points of their hull.
+    std::uint32_t shape = 0;
 };
 
 /// The meshes of all labels seen along the grid's z axis.
 struct PlanHulls {
     std::vector<MeshPlan> labels;  ///< by label
     std::vector<Vec3d> points;     ///< of convex hulls, counter-clockwise; along the grid's x and y axes, metres
+    std::uint32_t shapes = 0;      ///< numbers of MeshPlan::shape are less
 
     [[nodiscard]] std::span<const Vec3d> of(std::uint32_t label) const noexcept {
         return std::span(points).subspan(labels[label].firstPoint, labels[label].endPoint - labels[label].firstPoint);

@@ -1,7 +1,7 @@
 #include <svt/plane/arrangement.hpp>
 
+#include <svt/core/hash.hpp>
 #include <svt/plane/square_grid.hpp>
-#include <svt/plane/welder.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,33 +10,64 @@
 namespace svt::plane {
 namespace {
 
-// Nodes, and the search for the node near a point.
+// Nodes, and the search for the node near a point: by lists of the nodes whose cells share a hash.
 class NodeSet {
 public:
-    explicit NodeSet(std::int32_t tolerance) : tolerance_(tolerance) {}
+    explicit NodeSet(std::int32_t tolerance) : tolerance_(tolerance), lastOf_(kFirstLists, kNone) {}
 
     // The nearest node within the tolerance, or a new one.
     std::uint32_t nodeAt(Point p) {
         Wide least = Wide(tolerance_) * tolerance_;
-        const Cell cell{cellOf(p.u), cellOf(p.v), 0}, next{1, 1, 0};
-        return nodes_.add(p, cell, cell - next, cell + next, [&](std::uint32_t n, std::uint32_t best) {
-            const Point step = p - points()[n];
-            const Wide distance = dot(step, step);
-            if (distance > least || (distance == least && n > best)) return false;
-            least = distance;
-            return true;
-        });
+        std::uint32_t best = kNone;
+        const Point low = cellOf({p.u - tolerance_, p.v - tolerance_}),
+                    high = cellOf({p.u + tolerance_, p.v + tolerance_});
+        for (std::int64_t u = low.u; u <= high.u; ++u)
+            for (std::int64_t v = low.v; v <= high.v; ++v)
+                for (std::uint32_t n = lastOf_[listOf({u, v})]; n != kNone; n = before_[n]) {
+                    const Point step = p - points_[n];
+                    const Wide distance = dot(step, step);
+                    if (distance > least || (distance == least && n > best)) continue;
+                    least = distance;
+                    best = n;
+                }
+        return best != kNone ? best : add(p);
     }
 
-    [[nodiscard]] const std::vector<Point>& points() const noexcept { return nodes_.points(); }
+    [[nodiscard]] const std::vector<Point>& points() const noexcept { return points_; }
 
 private:
-    [[nodiscard]] std::int64_t cellOf(std::int64_t at) const noexcept {
-        return at >= 0 ? at / tolerance_ : -1 - (-1 - at) / tolerance_;
+    static constexpr std::size_t kFirstLists = 64;
+    static constexpr std::int64_t kCell = 8;  // tolerances: wide enough that most searches visit one or two cells
+
+    std::uint32_t add(Point p) {
+        points_.push_back(p);
+        before_.push_back(kNone);
+        if (points_.size() > lastOf_.size()) {
+            lastOf_.assign(2 * lastOf_.size(), kNone);
+            for (std::uint32_t n = 0; n + 1 < points_.size(); ++n) link(n);
+        }
+        const auto added = static_cast<std::uint32_t>(points_.size() - 1);
+        link(added);
+        return added;
+    }
+    void link(std::uint32_t n) noexcept {
+        std::uint32_t& last = lastOf_[listOf(cellOf(points_[n]))];
+        before_[n] = last;
+        last = n;
+    }
+    [[nodiscard]] Point cellOf(Point p) const noexcept {
+        const std::int64_t side = kCell * tolerance_;
+        const auto along = [&](std::int64_t at) { return at >= 0 ? at / side : -1 - (-1 - at) / side; };
+        return {along(p.u), along(p.v)};
+    }
+    [[nodiscard]] std::size_t listOf(Point cell) const noexcept {
+        const std::uint64_t hash = mixHash(mixHash(0, std::uint64_t(cell.u)), std::uint64_t(cell.v));
+        return static_cast<std::size_t>(hash >> 32) & (lastOf_.size() - 1);
     }
 
     std::int64_t tolerance_;
-    Welder<Point> nodes_;
+    std::vector<Point> points_;
+    std::vector<std::uint32_t> lastOf_, before_;  // by list: its last node, or kNone; by node: the one before
 };
 
 // A piece of a segment between two nodes; from < to as points.
@@ -45,6 +76,7 @@ struct NodePair {
     std::uint32_t claim = 0;
     std::int32_t winding = 0;
     bool isLine = false;
+    bool isNew = true;  // made in the last round
 };
 
 // Numbers by square, stored square after square.
@@ -75,8 +107,7 @@ public:
     SegmentArranger(std::span<const ClaimSegment> segments, std::int32_t tolerance)
         : reach_(tolerance / 2), nodes_(tolerance) {
         pairs_.reserve(segments.size());
-        for (const ClaimSegment& s : segments)
-            addPair(nodes_.nodeAt(s.from), nodes_.nodeAt(s.to), s.claim, s.winding, s.winding == 0);
+        for (const ClaimSegment& s : segments) addSegment(s);
         merge();
     }
 
@@ -117,13 +148,19 @@ private:
 
     [[nodiscard]] Point pointOf(std::uint32_t node) const noexcept { return nodes_.points()[node]; }
 
-    void addPair(std::uint32_t from, std::uint32_t to, std::uint32_t claim, std::int32_t winding, bool isLine) {
+    void addSegment(const ClaimSegment& s) {
+        // A node keeps the place of its first point, so the order counts.
+        const std::uint32_t to = nodes_.nodeAt(s.to), from = nodes_.nodeAt(s.from);
+        addPair(from, to, {from, to, s.claim, s.winding, s.winding == 0, true}, true);
+    }
+
+    // Adds a part of `whole`.
+    void addPair(std::uint32_t from, std::uint32_t to, const NodePair& whole, bool isNew) {
         if (from == to) return;
-        if (pointOf(to) < pointOf(from)) {
-            std::swap(from, to);
-            winding = -winding;
-        }
-        pairs_.push_back({from, to, claim, winding, isLine});
+        if (pointOf(to) < pointOf(from))
+            pairs_.push_back({to, from, whole.claim, -whole.winding, whole.isLine, isNew});
+        else
+            pairs_.push_back({from, to, whole.claim, whole.winding, whole.isLine, isNew});
     }
 
     // Merges coinciding edges. Borders of a claim that cancel each other disappear.
@@ -133,14 +170,17 @@ private:
         std::size_t kept = 0;
         for (std::size_t begin = 0, end = 0; begin < pairs_.size(); begin = end) {
             NodePair sum = pairs_[begin];
-            for (end = begin + 1; end < pairs_.size() && key(pairs_[end]) == key(sum); ++end)
+            for (end = begin + 1; end < pairs_.size() && key(pairs_[end]) == key(sum); ++end) {
                 sum.winding += pairs_[end].winding;
+                sum.isNew = sum.isNew || pairs_[end].isNew;
+            }
             if (sum.isLine || sum.winding != 0) pairs_[kept++] = sum;
         }
         pairs_.resize(kept);
     }
 
-    // One round: cuts all edges at the nodes that they pass, and where they cross. False if nothing was cut.
+    // One round: cuts all edges at the nodes that they pass, and where they cross. False if nothing was cut. Edges and
+    // nodes of earlier rounds have met before.
     bool split() {
         if (pairs_.empty()) return false;
         splits_.clear();
@@ -153,19 +193,24 @@ private:
                 pairsIn.add(square, n);
                 return true;
             });
-        for (std::uint32_t n = 0; n < nodes_.points().size(); ++n) nodesIn.add(grid.squareOf(pointOf(n)), n);
+        const auto nodeCount = static_cast<std::uint32_t>(nodes_.points().size());
+        for (std::uint32_t n = 0; n < nodeCount; ++n) nodesIn.add(grid.squareOf(pointOf(n)), n);
         pairsIn.finish(grid.count());
         nodesIn.finish(grid.count());
-        for (std::size_t square = 0; square < grid.count(); ++square) {
-            const auto near = pairsIn.of(square);
-            for (const std::uint32_t node : nodesIn.of(square))
-                for (const std::uint32_t pair : near) meetNode(pair, node);
-            for (std::size_t i = 0; i < near.size(); ++i)
-                for (std::size_t j = i + 1; j < near.size(); ++j) meetPair(near[i], near[j]);
-        }
+        for (std::size_t square = 0; square < grid.count(); ++square) meetIn(pairsIn.of(square), nodesIn.of(square));
+        firstNewNode_ = nodeCount;
         if (splits_.empty()) return false;
         applySplits();
         return true;
+    }
+
+    void meetIn(std::span<const std::uint32_t> pairs, std::span<const std::uint32_t> nodes) {
+        for (const std::uint32_t node : nodes)
+            for (const std::uint32_t pair : pairs)
+                if (pairs_[pair].isNew || node >= firstNewNode_) meetNode(pair, node);
+        for (std::size_t i = 0; i < pairs.size(); ++i)
+            for (std::size_t j = i + 1; j < pairs.size(); ++j)
+                if (pairs_[pairs[i]].isNew || pairs_[pairs[j]].isNew) meetPair(pairs[i], pairs[j]);
     }
 
     void addSplit(std::uint32_t pair, std::uint32_t node) {
@@ -177,6 +222,7 @@ private:
     void meetNode(std::uint32_t pair, std::uint32_t node) {
         const NodePair& p = pairs_[pair];
         if (node == p.from || node == p.to) return;
+        if (!isBesideBox(pointOf(node), pointOf(p.from), pointOf(p.to))) return;
         const Point along = pointOf(p.to) - pointOf(p.from), to = pointOf(node) - pointOf(p.from);
         const Wide at = dot(along, to), whole = dot(along, along);
         if (at <= 0 || at >= whole) return;
@@ -184,10 +230,20 @@ private:
         if (off * off <= double(reach_) * double(reach_) * static_cast<double>(whole)) addSplit(pair, node);
     }
 
+    // Whether a point can lie within the reach of a segment; from < to, so u ascends.
+    [[nodiscard]] bool isBesideBox(Point p, Point from, Point to) const noexcept {
+        const std::int64_t around = reach_ + 1;
+        return p.u >= from.u - around && p.u <= to.u + around && p.v >= std::min(from.v, to.v) - around &&
+               p.v <= std::max(from.v, to.v) + around;
+    }
+
     void meetPair(std::uint32_t first, std::uint32_t second) {
         const NodePair &p = pairs_[first], &q = pairs_[second];
         if (p.from == q.from || p.from == q.to || p.to == q.from || p.to == q.to) return;
         const Point a = pointOf(p.from), b = pointOf(p.to), c = pointOf(q.from), d = pointOf(q.to);
+        // Most pairs of a square lie apart, which a few comparisons show; from < to, so u ascends.
+        if (a.u > d.u || c.u > b.u) return;
+        if (std::min(a.v, b.v) > std::max(c.v, d.v) || std::min(c.v, d.v) > std::max(a.v, b.v)) return;
         const Point along = b - a, other = d - c;
         const Wide sideC = cross(along, c - a), sideD = cross(along, d - a);
         if ((sideC > 0) == (sideD > 0) || sideC == 0 || sideD == 0) return;
@@ -213,11 +269,12 @@ private:
         std::size_t next = 0;
         for (std::uint32_t n = 0; n < before.size(); ++n) {
             std::uint32_t from = before[n].from;
+            const bool isSplit = next < splits_.size() && splits_[next].pair == n;
             for (; next < splits_.size() && splits_[next].pair == n; ++next) {
-                addPair(from, splits_[next].node, before[n].claim, before[n].winding, before[n].isLine);
+                addPair(from, splits_[next].node, before[n], true);
                 from = splits_[next].node;
             }
-            addPair(from, before[n].to, before[n].claim, before[n].winding, before[n].isLine);
+            addPair(from, before[n].to, before[n], isSplit);
         }
         merge();
     }
@@ -226,6 +283,7 @@ private:
     // that the new edges do not come near each other's ends. So the rounds come to an end.
     std::int32_t reach_;
     NodeSet nodes_;
+    std::uint32_t firstNewNode_ = 0;  // nodes from here on were made in the last round
     std::vector<NodePair> pairs_;
     std::vector<Split> splits_;
 };

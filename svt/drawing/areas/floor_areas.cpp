@@ -163,7 +163,7 @@ private:
 
     // Measures the area that each level encloses, and the area of each label at its level.
     Result<void> cutLevels() {
-        areaAt_.assign(levels_.size(), std::vector<double>(volume_.labels.labels.size(), 0));
+        areasAt_.resize(levels_.size());
         std::vector<Result<void>> cut(levels_.size());
         drawSideBySide(levels_.size(), threads_, [&](std::size_t n, int threads) { cut[n] = cutLevel(n, threads); });
         for (const Result<void>& level : cut) SVT_DO(level);
@@ -182,7 +182,7 @@ private:
             addTo(level, component);
             level.gross += component.area;
             level.isGrossKnown = level.isGrossKnown || !model::isSpace(label.className);
-            areaAt_[n][component.label] = component.area;
+            areasAt_[n].emplace_back(component.label, component.area);
             covered.add(component, *drawing);
         }
         return closeOpenings(n, floor, *drawing, covered, threads);
@@ -201,7 +201,7 @@ private:
         SVT_TRY(above, cutAt(height, threads));
         bool hasWalls = false;
         for (const SectionComponent& component : above->components) {
-            const bool isCut = areaAt_[n][component.label] > 0;
+            const bool isCut = areaAt(n, component.label) > 0;
             if (!isCut || !isWallPart(volume_.labels.labels[component.label])) continue;
             covered.add(component, *above);
             addTo(areas_.levels[n], component);
@@ -212,9 +212,17 @@ private:
         return {};
     }
 
+    // The area of a label at its level's cut, m2; 0 if it is not cut there.
+    [[nodiscard]] double areaAt(std::size_t level, std::uint32_t label) const noexcept {
+        const auto& areas = areasAt_[level];
+        const auto found = std::lower_bound(areas.begin(), areas.end(), label,
+                                            [](const auto& area, std::uint32_t l) { return area.first < l; });
+        return found != areas.end() && found->first == label ? found->second : 0;
+    }
+
     // The area of a room without a closed mesh: at the cut of its level, or above its own floor if that is elsewhere.
     Result<double> cutArea(const RoomArea& room, const LabelExtent& extent) const {
-        if (areaAt_[room.level][room.label] > 0) return areaAt_[room.level][room.label];
+        if (const double area = areaAt(room.level, room.label); area > 0) return area;
         SVT_TRY(drawing, cutAt(extent.floor + kBelowSills, threads_));
         for (const SectionComponent& component : drawing->components)
             if (component.label == room.label) return component.area;
@@ -294,7 +302,7 @@ private:
     std::vector<LabelExtent> extents_;                     // by label
     std::vector<std::size_t> levelOf_;                     // by label
     std::vector<double> ceilings_;                         // by level, metres above the grid's lower corner
-    std::vector<std::vector<double>> areaAt_;              // by level and label, m2
+    std::vector<std::vector<std::pair<std::uint32_t, double>>> areasAt_;  // by level, label; m2
     FloorAreas areas_;
 };
 

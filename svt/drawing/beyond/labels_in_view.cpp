@@ -1,8 +1,6 @@
 #include <svt/drawing/beyond/labels_in_view.hpp>
 
-#include <svt/drawing/beyond/line_parts.hpp>
-#include <svt/drawing/beyond/plane_index.hpp>
-#include <svt/plane/regions.hpp>
+#include <svt/drawing/beyond/covered_region.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,179 +10,169 @@
 namespace svt::drawing {
 namespace {
 
-constexpr double kMeetTolerance = 8e-6;  // metres, as in exact sections
-constexpr double kInsideBorder = 3e-5;   // metres: lines this near to a border of faces or of the cut are not drawn
-constexpr double kAroundThin = 2e-4;     // metres: of sheets that stand upright, and where their lines would be seen
-constexpr double kApart = 0.01;          // metres of depth between faces and the labels that they cover
-constexpr double kLeastFacing = 0.1;     // cosine: steeper faces do not count as cover
-constexpr double kNearLayer = 4;         // metres of depth that are searched for faces first
-constexpr std::uint32_t kIsCovered = 1;
+constexpr double kApart = 0.01;      // metres of depth between faces and the labels that they cover
+constexpr double kNearLayer = 4;     // metres of depth that are projected at once
+constexpr double kMostOfNear = 0.4;  // of the faces in this layer, by area: the depth that is searched first
 
-// The common outline of cut components and faces.
-class CoveredPlan {
+// A label in front of the eye.
+struct LabelInDepth {
+    std::uint32_t label = 0;
+    std::uint32_t triangles = 0;
+    double least = 0, deepest = 0;  // metres behind the plane
+};
+
+class LabelSearch {
 public:
-    // \param farthest  faces that reach deeper do not count
-    CoveredPlan(const SectionDrawing& drawing, const std::vector<ViewFace>& faces, double farthest,
-                const std::vector<LabelFacts>& facts) {
-        for (const SectionComponent& component : drawing.components) {
-            if (facts[component.label].isSpace) continue;
-            for (const SectionPolygon& polygon : component.polygons) {
-                addRing(polygon.outer);
-                for (const Ring& hole : polygon.holes) addRing(hole);
-            }
-        }
-        for (const ViewFace& face : faces) {
-            double deepest = 0;
-            Ring ring;
-            for (std::uint32_t n = 0; n < face.cornerCount; ++n) {
-                deepest = std::max(deepest, face.corners[n].z);
-                ring.push_back({face.corners[n].x, face.corners[n].y});
-            }
-            if (deepest <= farthest && face.normal.z > kLeastFacing) addRing(ring);
-        }
-        arrange();
-    }
+    LabelSearch(const volume::SemanticVolume& volume, const SectionDrawing& drawing, const ViewOptions& view,
+                const DrawingTables& tables, MeshProjection& projection)
+        : parts_(volume.vectors),
+          table_(volume.labels),
+          axes_(drawing.axes),
+          away_(drawing.plane.normal * (view.looksAtCut ? 1.0 : -1.0)),
+          base_(volume.grid.origin() - drawing.axes.origin),
+          runs_(tables.runs()),
+          facts_(tables.facts()),
+          plans_(tables.plans()),
+          projection_(projection),
+          isNeeded_(volume.labels.labels.size(), 0) {}
 
-    // Whether a convex polygon lies within the outline.
-    [[nodiscard]] bool contains(std::span<const Vec3d> hull, PlanePoint shift) {
-        if (borders_.empty() || hull.size() < 2) return false;
-        Ring ring;
-        PlanePoint middle;
-        for (const Vec3d p : hull) {
-            ring.push_back({p.x + shift.u, p.y + shift.v});
-            middle = {middle.u + ring.back().u / double(hull.size()), middle.v + ring.back().v / double(hull.size())};
+    std::vector<std::uint8_t> run(const SectionDrawing& drawing, double depth) {
+        findLabels();
+        if (depth > 0) leaveOutBeyond(depth);
+        leaveOutCopies();
+        for (const LabelInDepth& label : labels_) isNeeded_[label.label] = 1;
+        double reach = depth > 0 ? depth : kNearLayer;
+        addNearer(-kInfinity, reach);
+        double layer = layerOfFaces(reach), before = -1;
+        CoveredRegion region(drawing, facts_);
+        for (bool isFirst = true;; isFirst = false) {
+            std::erase_if(labels_, [&](const LabelInDepth& label) { return label.least <= reach + kApart; });
+            if (!isWorthwhile()) break;
+            region.add(projection_.faces(), before, layer);
+            if ((leaveOutCovered(region) == 0 && !isFirst) || depth > 0 || !isWorthwhile()) break;
+            before = layer;
+            layer = 2 * reach;
+            addNearer(std::exchange(reach, layer), layer);
         }
-        const double slack = isThin(ring) ? -kAroundThin : kInsideBorder;
-        if (!isWithin(ring, middle, middle, slack)) return false;
-        bool isCrossed = false;
-        index_->visitNear(ring, seen_, [&](std::uint32_t item) {
-            isCrossed = isWithin(ring, borders_[2 * item], borders_[2 * item + 1], slack);
-            return !isCrossed;
-        });
-        return !isCrossed && isCovered(middle);
+        return std::move(isNeeded_);
     }
 
 private:
-    void addRing(const Ring& ring) {
-        for (std::size_t n = 0; n < ring.size(); ++n) rings_.emplace_back(ring[n], ring[(n + 1) % ring.size()]);
+    void findLabels() {
+        const double base = dot(base_, away_);
+        for (std::uint32_t run = 0; run < runs_.size();) {
+            LabelInDepth found{runs_[run].label, 0, kInfinity, -kInfinity};
+            for (; run < runs_.size() && runs_[run].label == found.label; ++run) {
+                const auto [low, high] = runs_[run].rangeAlong(away_);
+                found.least = std::min(found.least, low * parts_.unit + base);
+                found.deepest = std::max(found.deepest, high * parts_.unit + base);
+                found.triangles += runs_[run].end - runs_[run].first;
+            }
+            if (found.deepest >= -kApart && projection_.isShown(found.label)) labels_.push_back(found);
+        }
     }
 
-    void arrange() {
-        double extent = 1e-3;
-        for (const auto& [a, b] : rings_) extent = std::max({extent, std::abs(a.u), std::abs(a.v)});
-        const double unit = std::ldexp(1.0, std::ilogb(extent) + 1 - 28);
-        const auto placed = [&](PlanePoint p) {
-            return plane::Point{std::llround(p.u / unit), std::llround(p.v / unit)};
+    // Lines that begin deeper are not drawn. Their faces may hide the ends of others, which begin before and reach
+    // deeper.
+    void leaveOutBeyond(double depth) {
+        double deepest = depth;
+        for (const LabelInDepth& label : labels_)
+            if (label.least <= depth + kApart) deepest = std::max(deepest, label.deepest);
+        std::erase_if(labels_, [&](const LabelInDepth& label) { return label.least > deepest + kApart; });
+    }
+
+    // A closed object hides its copies that lie deeper, and all that these hide: parts of equal storeys.
+    void leaveOutCopies() {
+        std::vector<double> nearest(plans_.shapes, kInfinity);
+        const auto isWhole = [&](const LabelInDepth& label) {
+            return label.least > kApart && !facts_[label.label].isSpace &&
+                   table_.labels[label.label].filling == volume::Filling::Solid;
         };
-        std::vector<plane::ClaimSegment> segments;
-        for (const auto& [a, b] : rings_) segments.push_back({placed(a), placed(b), kIsCovered, 1});
-        const auto arranged = plane::arrangeSegments(
-            segments, std::max(2, static_cast<std::int32_t>(std::lround(kMeetTolerance / unit))));
-        if (!arranged) return;
-        const auto sides = plane::sweepRegions(*arranged, [](std::span<const plane::ClaimCount> counts) {
-            return !counts.empty() && counts.front().winding > 0 ? kIsCovered : 0u;
+        const auto nearestOf = [&](const LabelInDepth& label) -> double& {
+            return nearest[plans_.labels[label.label].shape];
+        };
+        for (const LabelInDepth& label : labels_)
+            if (isWhole(label)) nearestOf(label) = std::min(nearestOf(label), label.least);
+        std::erase_if(labels_, [&](const LabelInDepth& label) { return label.least > nearestOf(label) + kApart; });
+    }
+
+    // Projects the labels that begin in the depths (from, to].
+    void addNearer(double from, double to) {
+        for (const LabelInDepth& label : labels_)
+            if (label.least > from + kApart && label.least <= to + kApart) {
+                projection_.add(label.label);
+                projected_ += label.triangles;
+            }
+    }
+
+    // A depth within which much of the projected area lies: that of the slab below.
+    [[nodiscard]] double layerOfFaces(double reach) const {
+        std::vector<std::pair<double, double>> areas;  // by depth
+        double all = 0;
+        for (const ViewFace& face : projection_.faces()) {
+            double deepest = 0, twice = 0;
+            for (std::uint32_t n = 0; n < face.cornerCount; ++n) {
+                const Vec3d a = face.corners[n], b = face.corners[n + 1 < face.cornerCount ? n + 1 : 0];
+                deepest = std::max(deepest, a.z);
+                twice += a.x * b.y - a.y * b.x;
+            }
+            if (deepest > reach) continue;
+            areas.emplace_back(deepest, twice);
+            all += twice;
+        }
+        std::sort(areas.begin(), areas.end());
+        double sum = 0;
+        for (const auto& [deepest, twice] : areas)
+            if ((sum += twice) >= kMostOfNear * all) return deepest;
+        return reach;
+    }
+
+    // The faces near the eye cost more than a few labels behind them.
+    [[nodiscard]] bool isWorthwhile() const {
+        std::size_t behind = 0;
+        for (const LabelInDepth& label : labels_) behind += label.triangles;
+        return 2 * behind > projected_;
+    }
+
+    // Returns the number of labels that the region covers.
+    std::size_t leaveOutCovered(CoveredRegion& region) {
+        std::vector<std::optional<bool>> isShapeCovered(plans_.shapes);
+        return std::erase_if(labels_, [&](const LabelInDepth& label) {
+            auto& known = isShapeCovered[plans_.labels[label.label].shape];
+            if (!known) known = isHullCovered(label, region);
+            if (*known) isNeeded_[label.label] = 0;
+            return *known;
         });
-        std::vector<std::uint32_t> starts{0};
-        for (std::size_t e = 0; e < sides.size(); ++e) {
-            if (sides[e].left == sides[e].right) continue;
-            for (const plane::Point p : {arranged->edges[e].from, arranged->edges[e].to})
-                borders_.push_back({double(p.u) * unit, double(p.v) * unit});
-            starts.push_back(static_cast<std::uint32_t>(borders_.size()));
-            leftmost_ = std::min(leftmost_, borders_.back().u - 1);
-            leftmost_ = std::min(leftmost_, borders_[borders_.size() - 2].u - 1);
-        }
-        index_.emplace(borders_, starts, 2 * kAroundThin);
     }
 
-    // Whether a line has a part within a convex ring, at least `slack` from its sides.
-    [[nodiscard]] static bool isWithin(const Ring& ring, PlanePoint from, PlanePoint to, double slack) {
-        LinePart part;
-        for (std::size_t n = 0; n < ring.size(); ++n) {
-            const PlanePoint a = ring[n], b = ring[(n + 1) % ring.size()];
-            const double eu = b.u - a.u, ev = b.v - a.v, side = std::hypot(eu, ev);
-            if (!(side > 0)) continue;
-            const auto distance = [&](PlanePoint p) { return (eu * (p.v - a.v) - ev * (p.u - a.u)) / side - slack; };
-            if (!clipPart(part, distance(from), distance(to) - distance(from))) return false;
-            // A sheet that stands upright has two sides, which do not bound it along itself.
-            const auto before = [&](PlanePoint p) { return (eu * (p.u - a.u) + ev * (p.v - a.v)) / side - slack; };
-            if (ring.size() == 2 && !clipPart(part, before(from), before(to) - before(from))) return false;
-        }
-        return true;
+    [[nodiscard]] bool isHullCovered(const LabelInDepth& label, CoveredRegion& region) const {
+        const PlanePoint shift{dot(base_, axes_.u), dot(base_, axes_.v)};
+        Ring ring;
+        for (const Vec3d p : plans_.of(label.label)) ring.push_back({p.x + shift.u, p.y + shift.v});
+        return region.contains(ring);
     }
 
-    [[nodiscard]] static bool isThin(const Ring& ring) {
-        for (std::size_t n = 0; n < ring.size(); ++n) {
-            const PlanePoint a = ring[n], b = ring[(n + 1) % ring.size()];
-            const double eu = b.u - a.u, ev = b.v - a.v, side = std::hypot(eu, ev);
-            double farthest = 0;
-            for (const PlanePoint p : ring) farthest = std::max(farthest, (eu * (p.v - a.v) - ev * (p.u - a.u)) / side);
-            if (!(farthest > 2 * kAroundThin)) return true;
-        }
-        return false;
-    }
-
-    // By the number of borders to the left.
-    [[nodiscard]] bool isCovered(PlanePoint p) {
-        bool isInside = false;
-        index_->visitNear({leftmost_, p.v}, p, seen_, [&](std::uint32_t item) {
-            const PlanePoint a = borders_[2 * item], b = borders_[2 * item + 1];
-            if ((a.v > p.v) != (b.v > p.v) && a.u + (p.v - a.v) / (b.v - a.v) * (b.u - a.u) < p.u) isInside = !isInside;
-            return true;
-        });
-        return isInside;
-    }
-
-    std::vector<std::pair<PlanePoint, PlanePoint>> rings_;
-    std::vector<PlanePoint> borders_;  // two each
-    double leftmost_ = 0;
-    std::optional<PlaneIndex> index_;
-    PlaneIndex::Seen seen_;
+    const volume::VectorParts& parts_;
+    const volume::LabelTable& table_;
+    const PlaneAxes& axes_;
+    Vec3d away_, base_;  // depth; from the axes' origin to that of the points
+    const std::vector<MeshRun>& runs_;
+    const std::vector<LabelFacts>& facts_;
+    const PlanHulls& plans_;
+    MeshProjection& projection_;
+    std::vector<std::uint8_t> isNeeded_;
+    std::vector<LabelInDepth> labels_;  // those that may be left out
+    std::size_t projected_ = 0;         // triangles
 };
 
 }  // namespace
 
 std::vector<std::uint8_t> labelsInView(const volume::SemanticVolume& volume, const SectionDrawing& drawing,
-                                       std::span<const std::uint8_t> isDrawn, const ViewOptions& view, double depth,
-                                       const DrawingTables& tables) {
-    const volume::Grid& grid = volume.grid;
-    const Vec3d up = grid.axes()[2];
-    const bool isPlan = std::abs(dot(drawing.plane.normal, up)) > 1 - 1e-12;
+                                       const ViewOptions& view, double depth, const DrawingTables& tables,
+                                       MeshProjection& projection) {
+    const bool isPlan = std::abs(dot(drawing.plane.normal, volume.grid.axes()[2])) > 1 - 1e-12;
     if (!isPlan || view.everyEdge) return {};
-    const bool looksUp = (dot(drawing.plane.normal, up) > 0) == view.looksAtCut;
-    const double cut = dot(drawing.plane.point - grid.origin(), up);
-    const PlanHulls& plans = tables.plans();
-    const Vec3d toDrawing = grid.origin() - drawing.axes.origin;
-    const PlanePoint shift{dot(toDrawing, drawing.axes.u), dot(toDrawing, drawing.axes.v)};
-    const auto leastDepth = [&](std::uint32_t l) {
-        return looksUp ? plans.labels[l].low - cut : cut - plans.labels[l].high;
-    };
-    const auto deepest = [&](std::uint32_t l) {
-        return looksUp ? plans.labels[l].high - cut : cut - plans.labels[l].low;
-    };
-    std::vector<std::uint32_t> far;
-    std::vector<std::uint8_t> isNeeded(plans.labels.size(), 0);
-    for (std::uint32_t l = 0; l < isNeeded.size(); ++l) {
-        if (plans.labels[l].firstRun == plans.labels[l].endRun || deepest(l) < -kApart) continue;
-        isNeeded[l] = 1;
-        far.push_back(l);
-    }
-    for (double layer = depth > 0 ? depth : kNearLayer;; layer *= 2) {
-        std::erase_if(far, [&](std::uint32_t l) { return isNeeded[l] == 0 || leastDepth(l) <= layer + kApart; });
-        std::vector<std::uint8_t> isNear = isNeeded;
-        for (const std::uint32_t l : far) isNear[l] = 0;
-        const auto near = static_cast<std::size_t>(std::count(isNear.begin(), isNear.end(), 1));
-        // The faces cost more than they spare.
-        if (2 * far.size() <= near || far.empty()) return isNeeded;
-        const ViewShapes shapes = projectMeshes(volume, drawing.plane, drawing.axes, isDrawn, view, tables, isNear);
-        CoveredPlan covered(drawing, shapes.faces, layer, tables.facts());
-        bool isUseful = layer == kNearLayer;
-        for (const std::uint32_t l : far)
-            if (covered.contains(plans.of(l), shift)) {
-                isNeeded[l] = 0;
-                isUseful = true;
-            }
-        if (depth > 0 || !isUseful) return isNeeded;
-    }
+    return LabelSearch(volume, drawing, view, tables, projection).run(drawing, depth);
 }
 
 }  // namespace svt::drawing

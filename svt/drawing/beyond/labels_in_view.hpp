@@ -10,21 +10,25 @@
 #include <svt/drawing/beyond/view_shapes.hpp>
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace svt::drawing {
 
-/// The labels that a view of addLinesBeyond() needs. Other labels change nothing in it: in plan they lie within the
-/// common outline of cut components and of faces that are nearer to the cut than the label.
-/// \param drawing  with the cut
-/// \param depth    see BeyondOptions::depth; 0: none
+/// The labels that a view of addLinesBeyond() needs. Other labels change nothing in it:
+///
+/// - A label beyond the depth: a plan of one storey does not show the storey below it.
+/// - A copy in a deeper storey: a closed object hides its copies.
+/// - A label within the common outline of cut components and of nearer faces.
+///
+/// \param drawing     with the cut
+/// \param depth       see BeyondOptions::depth; 0: none
+/// \param projection  of the view; the labels near the eye are added to it
 /// \return one entry per label, 1 for needed ones; empty: all are needed. Views that are not horizontal or have hidden
 ///         lines need all.
-/// Cost: O(labels), and that of projecting and arranging the faces near the cut.
+/// Cost: O(labels), and that of projecting and arranging the faces near the eye.
 [[nodiscard]] std::vector<std::uint8_t> labelsInView(const volume::SemanticVolume& volume,
-                                                     const SectionDrawing& drawing,
-                                                     std::span<const std::uint8_t> isDrawn, const ViewOptions& view,
-                                                     double depth, const DrawingTables& tables);
+                                                     const SectionDrawing& drawing, const ViewOptions& view,
+                                                     double depth, const DrawingTables& tables,
+                                                     MeshProjection& projection);
 
 }  // namespace svt::drawing

@@ -47,7 +47,9 @@ std::size_t needed(const Boxes& boxes, int storey, bool looksAtCut, double depth
     const SectionDrawing plan = planOf(boxes, storey, {});
     const DrawingTables tables(boxes.volume);
     const std::vector<std::uint8_t> isDrawn(boxes.volume.labels.labels.size(), 1);
-    const auto labels = labelsInView(boxes.volume, plan, isDrawn, {.looksAtCut = looksAtCut}, depth, tables);
+    const ViewOptions view{.looksAtCut = looksAtCut};
+    MeshProjection projection(boxes.volume, plan.plane, plan.axes, isDrawn, view, tables);
+    const auto labels = labelsInView(boxes.volume, plan, view, depth, tables, projection);
     return static_cast<std::size_t>(std::count(labels.begin(), labels.end(), 1));
 }
 
@@ -106,6 +108,41 @@ TEST(LabelsInView, KeepWhatIsSeenThroughAGap) {
         boxes.addBox("beam" + std::to_string(n), "BuildingInstallation", {4, 0.35 * n, n * 3.0},
                      {6, 0.35 * n + 0.2, n * 3.0 + 0.2});
     EXPECT_EQ(needed(boxes, 0, true, 0), boxes.volume.labels.labels.size());
+}
+
+// A stair in a well: flights of 1.2 m on both sides of a gap of 0.4 m, through which nothing else is seen.
+Boxes stairwellOf(int storeys) {
+    Boxes boxes;
+    for (int n = 0; n < storeys; ++n) {
+        const double z = n * kStorey;
+        const std::string of = std::to_string(n);
+        boxes.addBox("slab" + of, "BuildingConstructiveElement", {0, 0, z}, {10, 8, z + 0.3});
+        const auto label = static_cast<std::uint32_t>(boxes.volume.labels.labels.size());
+        boxes.addBox("stair" + of, "BuildingInstallation", {12, 0, z}, {13.2, 4, z + 0.5});
+        boxes.addBox("flight" + of, "BuildingInstallation", {13.6, 0, z + 1}, {14.8, 4, z + 1.5});
+        // Both flights are one object, whose hull spans the gap.
+        boxes.volume.labels.labels.pop_back();
+        for (auto& triangle : boxes.volume.vectors.triangles) triangle.label = std::min(triangle.label, label);
+    }
+    return boxes;
+}
+
+TEST(LabelsInView, LeaveOutStairsBehindStairs) {
+    const Boxes low = stairwellOf(20), high = stairwellOf(40);
+    EXPECT_EQ(needed(low, 5, true, 0), needed(high, 5, true, 0));
+    EXPECT_LE(needed(high, 5, true, 0), 3u * 2);
+    EXPECT_FALSE(aboveOf(high, 5).empty());
+    EXPECT_EQ(aboveOf(stairwellOf(9), 5), aboveOf(high, 5));
+}
+
+// Labels of equal storeys share the points of their hull.
+TEST(DrawingTables, EqualStoreysHaveEqualShapes) {
+    const Boxes low = towerOf(3), high = towerOf(30);
+    const DrawingTables few(low.volume), many(high.volume);
+    EXPECT_EQ(few.plans().shapes, many.plans().shapes);
+    EXPECT_EQ(few.plans().points.size(), many.plans().points.size());
+    EXPECT_EQ(many.plans().labels[0].shape, many.plans().labels[7].shape);
+    EXPECT_NE(many.plans().labels[0].shape, many.plans().labels[1].shape);
 }
 
 }  // namespace

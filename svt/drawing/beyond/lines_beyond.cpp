@@ -194,8 +194,8 @@ void addLinesBeyond(SectionDrawing& drawing, const volume::SemanticVolume& volum
         const bool wantsHidden = !looksAtCut && options.hidden;
         const ViewOptions view{looksAtCut, wantsHidden};
         const double depth = looksAtCut ? 0 : options.depth;
-        const std::vector<std::uint8_t> isNeeded = labelsInView(volume, drawing, isDrawn, view, depth, tables);
-        ViewShapes shapes = projectMeshes(volume, drawing.plane, drawing.axes, isDrawn, view, tables, isNeeded);
+        MeshProjection projection(volume, drawing.plane, drawing.axes, isDrawn, view, tables);
+        ViewShapes shapes = projection.take(labelsInView(volume, drawing, view, depth, tables, projection));
         if (depth > 0) leaveOutBeyond(depth, shapes);
         const LineClipper clipper(shapes, cut, rule, wantsHidden);
         const BeyondKind kind = looksAtCut ? BeyondKind::Above : BeyondKind::Visible;
@@ -213,7 +213,8 @@ void addLinesOfView(SectionDrawing& drawing, const volume::SemanticVolume& volum
     const DrawingTables tables(volume);
     const CutRegion cut(drawing, volume.labels);
     const JointRule rule(volume.labels, tables);
-    const ViewShapes shapes = projectMeshes(volume, eye, isDrawn, isHidden, tables);
+    const ViewOptions view{false, isHidden};
+    const ViewShapes shapes = MeshProjection(volume, eye, isDrawn, view, tables).take({});
     const LineClipper clipper(shapes, cut, rule, isHidden);
     std::vector<BeyondLine> lines;
     clipEdges(shapes.edges, clipper, BeyondKind::Visible, threads, lines);

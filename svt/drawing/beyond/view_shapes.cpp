@@ -1,5 +1,7 @@
 #include <svt/drawing/beyond/view_shapes.hpp>
 
+#include <svt/drawing/exact/paged_array.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -48,58 +50,77 @@ LabelView labelViewOf(std::uint32_t l, const volume::LabelTable& table, const st
     return view;
 }
 
-class MeshProjector {
+// A point of a mesh as seen.
+struct PlacedPoint {
+    Vec3d at;           // view space
+    double height = 0;  // behind the plane that cuts; below zero is cut away
+    bool isPlaced = false;
+};
+
+}  // namespace
+
+class MeshProjection::Projector {
 public:
-    MeshProjector(const volume::SemanticVolume& volume, const SectionPlane& plane, const PlaneAxes& axes,
-                  std::span<const std::uint8_t> isDrawn, const ViewOptions& options, const DrawingTables& tables)
+    Projector(const volume::SemanticVolume& volume, const SectionPlane& plane, const PlaneAxes& axes,
+              std::span<const std::uint8_t> isDrawn, const ViewOptions& options, const DrawingTables& tables)
         : parts_(volume.vectors),
           table_(volume.labels),
           isDrawn_(isDrawn),
           options_(options),
           tables_(tables),
+          facts_(tables.facts()),
           axes_(axes),
           away_(plane.normal * (options.looksAtCut ? 1.0 : -1.0)),
-          base_(volume.grid.origin() - axes.origin) {
+          origin_(volume.grid.origin()),
+          points_(parts_.points.size()) {
         handedness_ = dot(axes.normal, away_) > 0 ? 1 : -1;
         const Vec3d up = volume.grid.axes()[2];
         up_ = {dot(up, axes.u), dot(up, axes.v), dot(up, away_)};
-        points_.resize(parts_.points.size());
-        heights_.resize(parts_.points.size());
-        isPlaced_.resize(parts_.points.size());
     }
 
-    MeshProjector(const volume::SemanticVolume& volume, const EyeView& eye, std::span<const std::uint8_t> isDrawn,
-                  const ViewOptions& options, const DrawingTables& tables)
+    Projector(const volume::SemanticVolume& volume, const EyeView& eye, std::span<const std::uint8_t> isDrawn,
+              const ViewOptions& options, const DrawingTables& tables)
         : parts_(volume.vectors),
           table_(volume.labels),
           isDrawn_(isDrawn),
           options_(options),
           tables_(tables),
-          eye_(&eye) {
+          facts_(tables.facts()),
+          origin_(volume.grid.origin()),
+          eye_(&eye),
+          points_(parts_.points.size()) {
         handedness_ = dot(cross(eye.axes.u, eye.axes.v), eye.away) > 0 ? 1 : -1;
         const Vec3d up = volume.grid.axes()[2];
         up_ = {dot(up, eye.axes.u), dot(up, eye.axes.v), dot(up, eye.away)};
-        for (const Vec3i& point : parts_.points) {
-            const Vec3d world = volume.grid.origin() + toDouble(point) * parts_.unit;
-            points_.push_back(eye.viewed(world));
-            const double height = eye.hasCut ? dot(eye.cut.point - world, eye.cut.normal) : 1;
-            heights_.push_back(std::abs(height) <= kOnViewPlane ? 0 : height);
-        }
     }
 
-    /// \param isNeeded  by label; empty: all
-    ViewShapes run(std::span<const std::uint8_t> isNeeded) {
-        const std::vector<MeshRun>& runs = tables_.runs();
-        for (std::size_t run = 0; run < runs.size();) {
-            const std::uint32_t label = runs[run].label;
-            std::size_t next = run;
-            while (next < runs.size() && runs[next].label == label) ++next;
-            const LabelView view = isNeeded.empty() || isNeeded[label] != 0
-                                       ? labelViewOf(label, table_, tables_.facts(), isDrawn_)
-                                       : LabelView();
-            if (view.isShown) addLabel(runs[run].first, runs[next - 1].end, view);
-            run = next;
-        }
+    [[nodiscard]] LabelView viewOf(std::uint32_t label) const { return labelViewOf(label, table_, facts_, isDrawn_); }
+
+    void add(std::uint32_t label) {
+        if (isAdded_.empty()) isAdded_.resize(table_.labels.size());
+        if (std::exchange(isAdded_[label], 1) != 0) return;
+        const LabelView view = viewOf(label);
+        const auto& triangles = parts_.triangles;
+        const auto first = std::lower_bound(triangles.begin(), triangles.end(), label,
+                                            [](const auto& triangle, std::uint32_t l) { return triangle.label < l; });
+        auto end = first;
+        while (end != triangles.end() && end->label == label) ++end;
+        if (!view.isShown || first == end) return;
+        ShapesOfLabel own{label, shapes_.faces.size(), 0, shapes_.edges.size(), 0};
+        addLabel(static_cast<std::size_t>(first - triangles.begin()), static_cast<std::size_t>(end - triangles.begin()),
+                 view);
+        own.endFace = shapes_.faces.size();
+        own.endEdge = shapes_.edges.size();
+        added_.push_back(own);
+    }
+
+    [[nodiscard]] const std::vector<ViewFace>& faces() const noexcept { return shapes_.faces; }
+
+    ViewShapes take(std::span<const std::uint8_t> isNeeded) {
+        const bool isPart = !added_.empty();
+        for (const MeshRun& run : tables_.runs())
+            if (isNeeded.empty() || isNeeded[run.label] != 0) add(run.label);
+        if (isPart) sortLabels(isNeeded);
         sortFaces();
         return std::move(shapes_);
     }
@@ -115,23 +136,52 @@ private:
         std::uint32_t triangle = 0;       // of normals_
     };
 
+    struct ShapesOfLabel {
+        std::uint32_t label = 0;
+        std::size_t firstFace = 0, endFace = 0, firstEdge = 0, endEdge = 0;  // of shapes_
+    };
+
+    // Keeps the shapes of the needed labels, by label.
+    void sortLabels(std::span<const std::uint8_t> isNeeded) {
+        std::erase_if(added_, [&](const ShapesOfLabel& own) { return !isNeeded.empty() && isNeeded[own.label] == 0; });
+        std::sort(added_.begin(), added_.end(),
+                  [](const ShapesOfLabel& a, const ShapesOfLabel& b) { return a.label < b.label; });
+        std::vector<ViewFace> faces;
+        for (const ShapesOfLabel& own : added_)
+            for (std::size_t f = own.firstFace; f < own.endFace; ++f) faces.push_back(shapes_.faces[f]);
+        shapes_.faces = std::move(faces);
+        std::vector<ViewEdge> edges;
+        for (const ShapesOfLabel& own : added_)
+            for (std::size_t e = own.firstEdge; e < own.endEdge; ++e) edges.push_back(shapes_.edges[e]);
+        shapes_.edges = std::move(edges);
+    }
+
+    [[nodiscard]] Vec3d pointAt(std::uint32_t point) const noexcept { return points_[point].at; }
+
     // The normal of a triangle in view space, pointing out of the shell; zero for slivers.
     [[nodiscard]] Vec3d normalOf(const volume::VectorParts::Triangle& triangle, double turn) const noexcept {
-        const Vec3d a = points_[triangle.corners[0]], b = points_[triangle.corners[1]],
-                    c = points_[triangle.corners[2]];
+        const Vec3d a = pointAt(triangle.corners[0]), b = pointAt(triangle.corners[1]),
+                    c = pointAt(triangle.corners[2]);
         const Vec3d normal = cross(b - a, c - a) * (handedness_ * turn);
         const double longest = std::max({length(b - a), length(c - b), length(a - c)});
         return length(normal) > kSliver * longest ? normalized(normal) : Vec3d{};
     }
 
-    // Points of view space of a parallel view, where a label needs them.
     void place(std::uint32_t point) {
-        if (eye_ != nullptr || isPlaced_[point] != 0) return;
-        isPlaced_[point] = 1;
-        const Vec3d p = base_ + toDouble(parts_.points[point]) * parts_.unit;
+        PlacedPoint& placed = points_.at(point);
+        if (placed.isPlaced) return;
+        placed.isPlaced = true;
+        if (eye_ != nullptr) {
+            const Vec3d world = origin_ + toDouble(parts_.points[point]) * parts_.unit;
+            placed.at = eye_->viewed(world);
+            const double height = eye_->hasCut ? dot(eye_->cut.point - world, eye_->cut.normal) : 1;
+            placed.height = std::abs(height) <= kOnViewPlane ? 0 : height;
+            return;
+        }
+        const Vec3d p = (origin_ - axes_.origin) + toDouble(parts_.points[point]) * parts_.unit;
         const double depth = dot(p, away_);
-        points_[point] = {dot(p, axes_.u), dot(p, axes_.v), std::abs(depth) <= kOnViewPlane ? 0 : depth};
-        heights_[point] = points_[point].z;
+        placed.height = std::abs(depth) <= kOnViewPlane ? 0 : depth;
+        placed.at = {dot(p, axes_.u), dot(p, axes_.v), placed.height};
     }
 
     void addLabel(std::size_t first, std::size_t end, const LabelView& view) {
@@ -141,7 +191,7 @@ private:
             const auto& triangle = parts_.triangles[t];
             const auto& c = triangle.corners;
             for (const std::uint32_t corner : c) place(corner);
-            const bool isBehind = heights_[c[0]] > 0 || heights_[c[1]] > 0 || heights_[c[2]] > 0;
+            const bool isBehind = points_[c[0]].height > 0 || points_[c[1]].height > 0 || points_[c[2]].height > 0;
             if (!isBehind) continue;
             const Vec3d normal = normalOf(triangle, view.turn);
             normals_.push_back({normal, facingOf(triangle, normal), static_cast<std::uint32_t>(t)});
@@ -168,7 +218,7 @@ private:
     [[nodiscard]] double facingOf(const volume::VectorParts::Triangle& triangle, Vec3d normal) const noexcept {
         if (!isPerspective()) return normal.z;
         const auto& c = triangle.corners;
-        const Vec3d middle = (points_[c[0]] + points_[c[1]] + points_[c[2]]) * (1.0 / 3);
+        const Vec3d middle = (pointAt(c[0]) + pointAt(c[1]) + pointAt(c[2])) * (1.0 / 3);
         return dot(normal, normalized(middle + Vec3d{0, 0, eye_->distance}));
     }
     [[nodiscard]] bool isPerspective() const noexcept { return eye_ != nullptr && eye_->distance > 0; }
@@ -189,7 +239,7 @@ private:
         if (std::abs(seen.facing) < kFromTheSide || (view.isClosed && seen.facing > 0)) return;
         std::array<ClippedPoint, 8> corners{}, clipped{};
         std::uint32_t count = 0;
-        for (const std::uint32_t c : triangle.corners) corners[count++] = {points_[c], heights_[c]};
+        for (const std::uint32_t c : triangle.corners) corners[count++] = {points_[c].at, points_[c].height};
         count = clipCorners(corners, count, clipped);
         if (eye_ != nullptr) {
             for (std::uint32_t n = 0; n < count; ++n) clipped[n].height = clipped[n].at.z - eye_->nearest;
@@ -199,7 +249,7 @@ private:
         if (count < 3) return;
         ViewFace face;
         face.label = triangle.label;
-        face.normal = picturedNormal(seen.normal, seen.facing, points_[triangle.corners[0]]);
+        face.normal = picturedNormal(seen.normal, seen.facing, pointAt(triangle.corners[0]));
         face.leastDepth = 1e300;
         for (std::uint32_t n = 0; n < count; ++n) {
             const Vec3d p = pictured(clipped[n].at);
@@ -261,8 +311,8 @@ private:
         const bool isOutline = view.isClosed ? nearest < -kSeen && farthest > -kSeen : count == 2 && isFold(around);
         if (count > 1 && !isCrease && !isOutline) return;
         if (view.isClosed && !options_.everyEdge && nearest > kFromTheSide) return;
-        ClippedPoint from{points_[around[0].low], heights_[around[0].low]},
-            to{points_[around[0].high], heights_[around[0].high]};
+        ClippedPoint from{points_[around[0].low].at, points_[around[0].low].height},
+            to{points_[around[0].high].at, points_[around[0].high].height};
         if (!clipEdge(from, to)) return;
         if (eye_ != nullptr) {
             from.height = from.at.z - eye_->nearest;
@@ -290,7 +340,7 @@ private:
 
     // Whether an edge of a stair lies between two narrow facets of a curved soffit, or of a curved upright face.
     [[nodiscard]] bool isBetweenFacets(std::span<const HalfEdge> around) const noexcept {
-        const Vec3d start = points_[around[0].low], edge = points_[around[0].high] - start;
+        const Vec3d start = pointAt(around[0].low), edge = pointAt(around[0].high) - start;
         const auto faces = outerFaces(around);
         int upright = 0;
         for (const TriangleView* face : faces) {
@@ -299,7 +349,7 @@ private:
             if (rise > kHorizontal || dot(face->normal, face->normal) == 0) return false;
             upright += rise < kUpright ? 1 : 0;
             for (const std::uint32_t corner : parts_.triangles[face->triangle].corners)
-                if (length(cross(edge, points_[corner] - start)) > kWidestFacet * length(edge)) return false;
+                if (length(cross(edge, pointAt(corner) - start)) > kWidestFacet * length(edge)) return false;
         }
         if (upright == 1) return false;
         return dot(faces[0]->normal, faces[1]->normal) > (upright == 2 ? kCosineOfString : kCosineOfSoffit);
@@ -326,10 +376,10 @@ private:
     [[nodiscard]] int sideOf(const HalfEdge& half, std::uint32_t triangle) const noexcept {
         Vec3d third{};
         for (const std::uint32_t corner : parts_.triangles[triangle].corners)
-            if (corner != half.low && corner != half.high) third = points_[corner];
-        const Vec3d along = points_[half.high] - points_[half.low], across = third - points_[half.low];
+            if (corner != half.low && corner != half.high) third = pointAt(corner);
+        const Vec3d along = pointAt(half.high) - pointAt(half.low), across = third - pointAt(half.low);
         if (isPerspective())
-            return dot(points_[half.low] + Vec3d{0, 0, eye_->distance}, cross(along, across)) > 0 ? 1 : -1;
+            return dot(pointAt(half.low) + Vec3d{0, 0, eye_->distance}, cross(along, across)) > 0 ? 1 : -1;
         return along.x * across.y - along.y * across.x > 0 ? 1 : -1;
     }
 
@@ -343,7 +393,7 @@ private:
                 return;
             }
             edge.faceSide = sideOf(half, t);
-            edge.normal = picturedNormal(normal, facing, points_[half.low]);
+            edge.normal = picturedNormal(normal, facing, pointAt(half.low));
         }
     }
 
@@ -364,31 +414,39 @@ private:
     std::span<const std::uint8_t> isDrawn_;
     const ViewOptions& options_;
     const DrawingTables& tables_;
-    PlaneAxes axes_;     // of a parallel view, as away_ and base_
-    Vec3d away_, base_;  // depth; from the axes' origin to that of the points
-    Vec3d up_;           // the grid's z axis in view space
-    std::vector<std::uint8_t> isPlaced_;
+    const std::vector<LabelFacts>& facts_;
+    PlaneAxes axes_;                     // of a parallel view, as away_
+    Vec3d away_;                         // depth
+    Vec3d origin_;                       // of the points, world space
+    Vec3d up_;                           // the grid's z axis in view space
     double handedness_ = 1;              // of u, v and depth
     const EyeView* eye_ = nullptr;       // or the plane's
-    std::vector<Vec3d> points_;          // view space
-    std::vector<double> heights_;        // of points behind the plane that cuts; below zero is cut away
+    PagedArray<PlacedPoint> points_;     // by point of the volume; those of added labels are placed
+    std::vector<std::uint8_t> isAdded_;  // by label
+    std::vector<ShapesOfLabel> added_;   // in the order of shapes_
     std::vector<TriangleView> normals_;  // of the label's triangles behind the plane
     std::vector<HalfEdge> halfEdges_;
     ViewShapes shapes_;
 };
 
-}  // namespace
+MeshProjection::MeshProjection(const volume::SemanticVolume& volume, const SectionPlane& plane, const PlaneAxes& axes,
+                               std::span<const std::uint8_t> isDrawn, const ViewOptions& options,
+                               const DrawingTables& tables)
+    : projector_(std::make_unique<Projector>(volume, plane, axes, isDrawn, options, tables)) {}
 
-ViewShapes projectMeshes(const volume::SemanticVolume& volume, const SectionPlane& plane, const PlaneAxes& axes,
-                         std::span<const std::uint8_t> isDrawn, const ViewOptions& options, const DrawingTables& tables,
-                         std::span<const std::uint8_t> isNeeded) {
-    return MeshProjector(volume, plane, axes, isDrawn, options, tables).run(isNeeded);
-}
+MeshProjection::MeshProjection(const volume::SemanticVolume& volume, const EyeView& eye,
+                               std::span<const std::uint8_t> isDrawn, const ViewOptions& options,
+                               const DrawingTables& tables)
+    : projector_(std::make_unique<Projector>(volume, eye, isDrawn, options, tables)) {}
 
-ViewShapes projectMeshes(const volume::SemanticVolume& volume, const EyeView& eye,
-                         std::span<const std::uint8_t> isDrawn, bool everyEdge, const DrawingTables& tables) {
-    const ViewOptions options{false, everyEdge};
-    return MeshProjector(volume, eye, isDrawn, options, tables).run({});
-}
+MeshProjection::~MeshProjection() = default;
+
+bool MeshProjection::isShown(std::uint32_t label) const { return projector_->viewOf(label).isShown; }
+
+void MeshProjection::add(std::uint32_t label) { projector_->add(label); }
+
+const std::vector<ViewFace>& MeshProjection::faces() const noexcept { return projector_->faces(); }
+
+ViewShapes MeshProjection::take(std::span<const std::uint8_t> isNeeded) { return projector_->take(isNeeded); }
 
 }  // namespace svt::drawing

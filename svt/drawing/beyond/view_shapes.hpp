@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -76,21 +77,36 @@ struct EyeView {
     }
 };
 
-/// Projects the meshes of `volume`. Omits faces that are seen edge-on, and all parts in front of the plane. The drawn
-/// objects hide other objects, except spaces and closure surfaces. A room that is a hole in a closed building and has
-/// no surfaces of its own shows its shell from within. Edges are ends of faces, creases over 20 degrees, and
-/// silhouettes of round surfaces.
-/// \param isDrawn  by label
-/// \param tables   of the volume
-/// \param isNeeded by label: only these are projected, see labelsInView(); empty: all
-[[nodiscard]] ViewShapes projectMeshes(const volume::SemanticVolume& volume, const SectionPlane& plane,
-                                       const PlaneAxes& axes, std::span<const std::uint8_t> isDrawn,
-                                       const ViewOptions& options, const DrawingTables& tables,
-                                       std::span<const std::uint8_t> isNeeded = {});
+/// Projects the meshes of a volume, label by label. Omits faces that are seen edge-on, and all parts in front of the
+/// plane. The drawn objects hide other objects, except spaces and closure surfaces. A room that is a hole in a closed
+/// building and has no surfaces of its own shows its shell from within. Edges are ends of faces, creases over 20
+/// degrees, and silhouettes of round surfaces.
+class MeshProjection {
+public:
+    /// \param isDrawn  by label
+    /// \param tables   of the volume
+    /// The arguments must outlive the projection.
+    MeshProjection(const volume::SemanticVolume& volume, const SectionPlane& plane, const PlaneAxes& axes,
+                   std::span<const std::uint8_t> isDrawn, const ViewOptions& options, const DrawingTables& tables);
+    /// As seen by an eye, without the parts in front of the plane of its cut.
+    MeshProjection(const volume::SemanticVolume& volume, const EyeView& eye, std::span<const std::uint8_t> isDrawn,
+                   const ViewOptions& options, const DrawingTables& tables);
+    ~MeshProjection();
 
-/// The same as seen by an eye, without the parts in front of the plane of a cut.
-[[nodiscard]] ViewShapes projectMeshes(const volume::SemanticVolume& volume, const EyeView& eye,
-                                       std::span<const std::uint8_t> isDrawn, bool everyEdge,
-                                       const DrawingTables& tables);
+    /// Whether the label has a mesh that draws or hides something.
+    [[nodiscard]] bool isShown(std::uint32_t label) const;
+    /// Projects a shown label, once.
+    /// Cost: that of its triangles.
+    void add(std::uint32_t label);
+    /// The faces of all added labels, in the order in which these were added.
+    [[nodiscard]] const std::vector<ViewFace>& faces() const noexcept;
+    /// The shapes of the shown labels; adds those that are missing. May be called once.
+    /// \param isNeeded  by label: the others are left out, see labelsInView(); empty: all
+    [[nodiscard]] ViewShapes take(std::span<const std::uint8_t> isNeeded);
+
+private:
+    class Projector;
+    std::unique_ptr<Projector> projector_;
+};
 
 }  // namespace svt::drawing

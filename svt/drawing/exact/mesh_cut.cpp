@@ -1,5 +1,7 @@
 #include <svt/drawing/exact/mesh_cut.hpp>
 
+#include <svt/drawing/exact/paged_array.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,16 +19,19 @@ class TriangleCutter {
 public:
     TriangleCutter(const volume::VectorParts& parts, Vec3d origin, const PlaneAxes& axes, bool keepsAbove,
                    std::span<const MeshRun> runs)
-        : parts_(parts), axes_(axes), toPoints_(origin - axes.origin), keepsAbove_(keepsAbove) {
+        : parts_(parts),
+          axes_(axes),
+          toPoints_(origin - axes.origin),
+          keepsAbove_(keepsAbove),
+          heights_(parts.points.size()) {
         const double base = dot(toPoints_, axes.normal);
-        heights_.resize(parts.points.size());
         for (const MeshRun& run : runs) {
             const auto [low, high] = run.rangeAlong(axes.normal);
             if (low * parts.unit + base > kCutReach || high * parts.unit + base < -kCutReach) continue;
             for (std::uint32_t t = run.first; t < run.end; ++t) {
                 near_.push_back(t);
                 for (const std::uint32_t corner : parts.triangles[t].corners)
-                    heights_[corner] = dot(toDouble(parts.points[corner]), axes.normal) * parts.unit + base;
+                    heights_.at(corner) = dot(toDouble(parts.points[corner]), axes.normal) * parts.unit + base;
             }
         }
     }
@@ -46,10 +51,10 @@ public:
             }
         if (!isExact) cut.shift = kHair;
         const double raise = keepsAbove_ ? cut.shift : -cut.shift;
-        for (double& height : heights_) {
+        heights_.forVisited([&](double& height) {
             height -= raise;
             if (std::abs(height) <= kOnPlane) height = 0;
-        }
+        });
         for (const std::uint32_t t : near_) addSegment(parts_.triangles[t], cut.segments);
         return cut;
     }
@@ -91,7 +96,7 @@ private:
     const PlaneAxes& axes_;
     Vec3d toPoints_;
     bool keepsAbove_;
-    std::vector<double> heights_;      // above the plane, metres, by point; only of triangles near it
+    PagedArray<double> heights_;       // above the plane, metres, by point; only of triangles near it
     std::vector<std::uint32_t> near_;  // triangles that may meet the plane, in their order
 };
 

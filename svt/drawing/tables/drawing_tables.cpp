@@ -1,5 +1,6 @@
 #include <svt/drawing/drawing_tables.hpp>
 
+#include <svt/core/hash.hpp>
 #include <svt/drawing/dimension/part_roles.hpp>
 #include <svt/drawing/hatches.hpp>
 #include <svt/drawing/room_floor_areas.hpp>
@@ -8,6 +9,10 @@
 #include <svt/plane/hull.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <unordered_map>
 #include <utility>
 
 namespace svt::drawing {
@@ -71,33 +76,108 @@ std::vector<Vec3d> hullInPlan(std::vector<Vec3d> points) {
     return lower;
 }
 
-PlanHulls plansOf(const volume::SemanticVolume& volume, const std::vector<MeshRun>& runs) {
-    const volume::VectorParts& parts = volume.vectors;
-    const auto axes = volume.grid.axes();
-    PlanHulls plans;
-    plans.labels.resize(volume.labels.labels.size());
-    std::vector<Vec3d> points;
-    for (std::uint32_t run = 0; run < runs.size();) {
-        const std::uint32_t label = runs[run].label;
-        MeshPlan& plan = plans.labels[label];
-        plan = {run, run, static_cast<std::uint32_t>(plans.points.size()), 0, kInfinity, -kInfinity};
-        points.clear();
-        for (; run < runs.size() && runs[run].label == label; ++run) {
-            for (std::uint32_t t = runs[run].first; t < runs[run].end; ++t)
-                for (const std::uint32_t corner : parts.triangles[t].corners) {
-                    const Vec3d p = parts.position(corner, {});
-                    points.push_back({dot(p, axes[0]), dot(p, axes[1]), 0});
-                    plan.low = std::min(plan.low, dot(p, axes[2]));
-                    plan.high = std::max(plan.high, dot(p, axes[2]));
-                }
+class PlanMaker {
+public:
+    PlanMaker(const volume::SemanticVolume& volume, const std::vector<MeshRun>& runs)
+        : parts_(volume.vectors), axes_(volume.grid.axes()), runs_(runs) {
+        plans_.labels.resize(volume.labels.labels.size());
+    }
+
+    PlanHulls run() {
+        for (std::uint32_t first = 0; first < runs_.size();) {
+            const std::uint32_t label = runs_[first].label;
+            std::uint32_t end = first;
+            while (end < runs_.size() && runs_[end].label == label) ++end;
+            plans_.labels[label] = {first, end, 0, 0, kInfinity, -kInfinity, 0};
+            addHeights(plans_.labels[label]);
+            addShape(label);
+            first = end;
+        }
+        return std::move(plans_);
+    }
+
+private:
+    template <class Body>
+    void forCorners(const MeshPlan& plan, const Body& body) const {
+        for (std::uint32_t t = runs_[plan.firstRun].first; t < runs_[plan.endRun - 1].end; ++t)
+            for (const std::uint32_t corner : parts_.triangles[t].corners) body(corner);
+    }
+    [[nodiscard]] Vec3d inPlan(std::uint32_t corner) const noexcept {
+        const Vec3d p = parts_.position(corner, {});
+        return {dot(p, axes_[0]), dot(p, axes_[1]), 0};
+    }
+
+    [[nodiscard]] double heightOf(std::uint32_t corner) const noexcept {
+        return dot(parts_.position(corner, {}), axes_[2]);
+    }
+
+    void addHeights(MeshPlan& plan) const {
+        forCorners(plan, [&](std::uint32_t corner) {
+            const double height = heightOf(corner);
+            plan.low = std::min(plan.low, height);
+            plan.high = std::max(plan.high, height);
+        });
+    }
+
+    // Finds an earlier label of the same shape, or makes the hull.
+    void addShape(std::uint32_t label) {
+        MeshPlan& plan = plans_.labels[label];
+        std::uint64_t hash = 0;
+        forCorners(plan, [&](std::uint32_t corner) {
+            const Vec3d p = inPlan(corner);
+            hash = mixHash(mixHash(hash, std::bit_cast<std::uint64_t>(p.x)), std::bit_cast<std::uint64_t>(p.y));
+        });
+        constexpr int kMostTried = 8;
+        const auto [first, end] = labelsOfHash_.equal_range(hash);
+        int tried = 0;
+        for (auto known = first; known != end && tried < kMostTried; ++known, ++tried) {
+            const MeshPlan& other = plans_.labels[known->second];
+            if (!isSame(plan, other)) continue;
+            plan.firstPoint = other.firstPoint;
+            plan.endPoint = other.endPoint;
+            plan.shape = other.shape;
+            return;
+        }
+        labelsOfHash_.emplace(hash, label);
+        plan.shape = plans_.shapes++;
+        addHull(plan);
+    }
+
+    // Whether one mesh is the other one at another height.
+    [[nodiscard]] bool isSame(const MeshPlan& a, const MeshPlan& b) const {
+        const auto& triangles = parts_.triangles;
+        const std::uint32_t first = runs_[a.firstRun].first, end = runs_[a.endRun - 1].end;
+        const std::uint32_t other = runs_[b.firstRun].first;
+        if (runs_[b.endRun - 1].end - other != end - first) return false;
+        const double rounding = 2.5 * parts_.unit;
+        for (std::uint32_t t = 0; t < end - first; ++t)
+            for (std::size_t n = 0; n < 3; ++n) {
+                const std::uint32_t one = triangles[first + t].corners[n], two = triangles[other + t].corners[n];
+                const Vec3d p = inPlan(one), q = inPlan(two);
+                if (p.x != q.x || p.y != q.y) return false;
+                if (!(std::abs((heightOf(one) - a.low) - (heightOf(two) - b.low)) <= rounding)) return false;
+            }
+        return true;
+    }
+
+    void addHull(MeshPlan& plan) {
+        std::vector<Vec3d> points;
+        for (std::uint32_t run = plan.firstRun; run < plan.endRun; ++run) {
+            for (std::uint32_t t = runs_[run].first; t < runs_[run].end; ++t)
+                for (const std::uint32_t corner : parts_.triangles[t].corners) points.push_back(inPlan(corner));
             points = hullInPlan(std::move(points));
         }
-        plan.endRun = run;
-        plans.points.insert(plans.points.end(), points.begin(), points.end());
-        plan.endPoint = static_cast<std::uint32_t>(plans.points.size());
+        plan.firstPoint = static_cast<std::uint32_t>(plans_.points.size());
+        plans_.points.insert(plans_.points.end(), points.begin(), points.end());
+        plan.endPoint = static_cast<std::uint32_t>(plans_.points.size());
     }
-    return plans;
-}
+
+    const volume::VectorParts& parts_;
+    const std::array<Vec3d, 3> axes_;
+    const std::vector<MeshRun>& runs_;
+    PlanHulls plans_;
+    std::unordered_multimap<std::uint64_t, std::uint32_t> labelsOfHash_;  // of different shapes
+};
 
 }  // namespace
 
@@ -164,7 +244,7 @@ Result<const volume::BrickVolume*> DrawingTables::bricks(int threads) const {
 const PlanHulls& DrawingTables::plans() const {
     const std::vector<MeshRun>& own = runs();
     const std::lock_guard lock(mutex_);
-    if (!plans_) plans_ = plansOf(volume_, own);
+    if (!plans_) plans_ = PlanMaker(volume_, own).run();
     return *plans_;
 }
 
