@@ -31,7 +31,8 @@ struct OpeningRow {
     std::size_t level = 0;                                ///< index into the given levels
     std::optional<double> statedWidth, statedHeight;      ///< metres, as the file states them: OverallWidth of IFC
     std::optional<double> measuredWidth, measuredHeight;  ///< metres, of the mesh with its frame
-    std::optional<double> sill;  ///< metres from the floor of the level to the lowest point; the least of the row
+    /// Metres from the floor of the rooms to the lowest point, the least of the row. Thresholds of doors below 5 cm are 0.
+    std::optional<double> sill;
     std::vector<std::uint32_t> labels;
 };
 
@@ -43,7 +44,8 @@ struct OpeningSchedule {
     std::size_t unknown = 0;                          ///< openings without a mesh and a stated size, which have no row
 };
 
-/// Lists the doors and windows that have a mesh or a stated size. A feature within another opening, such as its surface,
+/// Lists the doors and windows that have a mesh or a stated size, also elements whose `ifcType` is one of a door or a
+/// window. A feature within another opening, such as its surface,
 /// belongs to that one. Surfaces of doors and windows count only if the model has no doors or windows as bodies; the two
 /// sides of a wall count once. Marks are numbered by level, type and size.
 /// \param levels  of findLevels(); may be empty

@@ -68,6 +68,7 @@ struct SheetContent {
     std::optional<drawing::OpeningSchedule> openings{};  ///< plans have its marks
     /// Plans have their lines of travel; without a value, they are found for each plan.
     std::optional<std::vector<drawing::StairFlight>> stairs{};
+    bool hasGrids = false;  ///< plans have the names of the axes of grids outside of their dimensions
 };
 
 struct SheetOptions {
@@ -79,9 +80,11 @@ struct SheetOptions {
 };
 
 /// The tables of rooms, floor areas and components; without rooms, only the table of components.
+/// \param labels  of the volume: rooms without a name are called a room there, not by their id; may be null
 [[nodiscard]] std::vector<SheetTable> makeAreaTables(const drawing::FloorAreas& areas,
                                                      const std::vector<drawing::BuildingLevel>& levels,
-                                                     SheetLanguage language);
+                                                     SheetLanguage language,
+                                                     const volume::LabelTable* labels = nullptr);
 
 /// The tables of doors and of windows; none for a kind without openings.
 [[nodiscard]] std::vector<SheetTable> makeOpeningTables(const drawing::OpeningSchedule& openings,

@@ -1,5 +1,6 @@
 #include <svt/drawing/dimension/dimension_chains.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/drawing/dimension/side_reader.hpp>
 #include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/levels/level_parts.hpp>
@@ -127,16 +128,18 @@ std::vector<RoomHeight> roomHeights(const SectionDrawing& drawing, const volume:
     return heights;
 }
 
-// Floors and ceilings of the room with the largest section per level.
+// Floors and ceilings of the room with the largest section per level. Spaces above the hull, such as roof terraces, have
+// no ceiling.
 std::vector<double> clearHeights(const SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                                 const std::vector<double>& floors) {
+                                 const std::vector<double>& floors, double top) {
     std::vector<double> stops;
     const std::vector<RoomHeight> rooms = floors.empty() ? std::vector<RoomHeight>() : roomHeights(drawing, volume);
     for (const double floor : floors) {
         double area = 0;
         std::pair<double, double> best;
         for (const RoomHeight& room : rooms) {
-            if (room.area <= area || std::abs(room.low - floor) > kSameFoot) continue;
+            if (room.area <= area || std::abs(room.low - floor) > kSameFoot || room.high > top + kShortestPart)
+                continue;
             area = room.area;
             best = {room.low, room.high};
         }
@@ -146,6 +149,67 @@ std::vector<double> clearHeights(const SectionDrawing& drawing, const volume::Se
         stops.push_back(best.second);
     }
     return cleanStops(std::move(stops));
+}
+
+bool isRoofPart(const volume::Label& label) {
+    if (label.className.starts_with("Roof")) return true;
+    const std::string type = lowerTexts(label, {"ifcType", "function", "predefinedType"});
+    if (type.find("roof") != std::string::npos) return true;
+    const std::string name = lowerAscii(label.name);
+    return type.find("slab") != std::string::npos &&
+           (name.find("roof") != std::string::npos || name.find("dach") != std::string::npos);
+}
+
+bool isRafter(const volume::Label& label) {
+    const std::string words =
+        lowerTexts(label, {"ifcType", "function", "predefinedType"}) + " " + lowerAscii(label.name);
+    for (const char* const word : {"rafter", "purlin", "sparren", "pfette"})
+        if (words.find(word) != std::string::npos) return true;
+    return false;
+}
+
+// The box around the cut parts of the hull; empty without any.
+struct HullBox {
+    double low[2] = {kInfinity, kInfinity}, high[2] = {-kInfinity, -kInfinity};
+
+    void add(const SectionComponent& component) {
+        for (const SectionPolygon& polygon : component.polygons)
+            for (const PlanePoint p : polygon.outer)
+                for (const int axis : {0, 1}) {
+                    low[axis] = std::min(low[axis], axis == 0 ? p.u : p.v);
+                    high[axis] = std::max(high[axis], axis == 0 ? p.u : p.v);
+                }
+    }
+};
+
+// The roles in a plan. A slope is cut wherever the plane happens to meet it: in an attic, walls are measured and not the
+// roof, unless the walls are only those of a part of it.
+std::vector<PartRole> withoutRoofs(const SectionDrawing& drawing, const std::vector<PartRole>& roles,
+                                   const volume::LabelTable& table) {
+    constexpr double kLeastShare = 0.75;
+    HullBox all, walls;
+    std::vector<PartRole> others = roles;
+    for (const SectionComponent& component : drawing.components) {
+        if (roles[component.label] == PartRole::Frame && isRafter(table.labels[component.label]))
+            others[component.label] = PartRole::Nothing;
+        if (roles[component.label] != PartRole::Hull) continue;
+        all.add(component);
+        if (isRoofPart(table.labels[component.label]))
+            others[component.label] = PartRole::Nothing;
+        else
+            walls.add(component);
+    }
+    // Rafters belong to the roof, also where they touch a wall.
+    const auto isRoof = [&](std::uint32_t label) {
+        return label != kNoLabel && roles[label] == PartRole::Hull && others[label] == PartRole::Nothing;
+    };
+    for (const SectionBorder& border : drawing.borders)
+        for (const auto& [roof, frame] : {std::pair(border.left, border.right), std::pair(border.right, border.left)})
+            if (isRoof(roof) && frame != kNoLabel && roles[frame] == PartRole::Frame) others[frame] = PartRole::Nothing;
+    bool hasWalls = true;
+    for (const int axis : {0, 1})
+        hasWalls = hasWalls && walls.high[axis] - walls.low[axis] >= kLeastShare * (all.high[axis] - all.low[axis]);
+    return rolesIn(drawing, hasWalls ? std::move(others) : roles);
 }
 
 }  // namespace
@@ -158,7 +222,8 @@ void addDimensions(SectionDrawing& drawing, const volume::SemanticVolume& volume
     if (!isPlan && upright > 1e-9) return;
     const std::vector<PartRole> roles = rolesIn(drawing, tables.roles());
     const std::vector<BuildingLevel> levels = options.levels != nullptr ? *options.levels : findLevels(volume);
-    drawing.dimensions = isPlan ? findPlanChains(drawing, roles) : findHeightChains(drawing, volume, roles, levels);
+    drawing.dimensions = isPlan ? findPlanChains(drawing, withoutRoofs(drawing, tables.roles(), volume.labels))
+                                : findHeightChains(drawing, volume, roles, levels);
     // An elevation cuts nothing.
     const bool isCut = std::any_of(drawing.components.begin(), drawing.components.end(),
                                    [&](const auto& part) { return roles[part.label] != PartRole::Space; });
@@ -211,7 +276,7 @@ std::vector<DimensionChain> findHeightChains(const SectionDrawing& drawing, cons
         SideReader reader(drawing, roles, side);
         if (reader.read() && reader.hasOpenings()) rows.add(reader.openings(), 3);
         if (side == DimensionSide::Left) {
-            rows.add(clearHeights(drawing, volume, floors), 2);
+            rows.add(clearHeights(drawing, volume, floors, extent[1]), 2);
             std::vector<double> storeys = floors;
             storeys.insert(storeys.end(), extent.begin(), extent.end());
             rows.add(cleanStops(std::move(storeys)), 3);

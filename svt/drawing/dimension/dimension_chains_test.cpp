@@ -69,6 +69,65 @@ TEST(Dimensions, NichesInWallsAlongTheSightAreNoRooms) {
     EXPECT_EQ(chainsOf(drawing, DimensionSide::Left).front(), (std::vector<long>{300, 5400, 300}));
 }
 
+// A window without a body leaves a gap in the wall behind the room: the room still ends there.
+TEST(Dimensions, RoomsBeforeAGapInTheWallAreRooms) {
+    Boxes boxes;
+    boxes.addBox("room", "BuildingRoom", {0.3, 0.3, 0}, {7.7, 5.7, 3});
+    boxes.addBox("south-west", "BuildingConstructiveElement", {0, 0, 0}, {1, 0.3, 3});
+    boxes.addBox("south-east", "BuildingConstructiveElement", {2.2, 0, 0}, {8, 0.3, 3});
+    boxes.addBox("north", "BuildingConstructiveElement", {0, 5.7, 0}, {8, 6, 3});
+    boxes.addBox("west", "BuildingConstructiveElement", {0, 0.3, 0}, {0.3, 5.7, 3});
+    boxes.addBox("east", "BuildingConstructiveElement", {7.7, 0.3, 0}, {8, 5.7, 3});
+    EXPECT_EQ(chainsOf(planOf(boxes), DimensionSide::Above), (Chains{{300, 7400, 300}, {8000}}));
+    // A window that is a surface closes the gap: before, the chain below had stops of the wall behind the room.
+    boxes.addLabel("window", "Window", volume::Filling::Surface, 0);
+    boxes.addQuad({Vec3d{1, 0.1, 0.5}, {2.2, 0.1, 0.5}, {2.2, 0.1, 2.5}, {1, 0.1, 2.5}});
+    EXPECT_EQ(chainsOf(planOf(boxes), DimensionSide::Below), (Chains{{1000, 1200, 5800}, {300, 7400, 300}, {8000}}));
+}
+
+// Without rooms in the model, the air in a niche beside a corner continues the air of the room.
+TEST(Dimensions, NichesInWallsAlongTheSightAreNoAirOfRooms) {
+    Boxes boxes;
+    boxes.addBox("north", "BuildingConstructiveElement", {0, 5.8, 0}, {8, 6, 3});
+    boxes.addBox("south", "BuildingConstructiveElement", {0, 0, 0}, {8, 0.2, 3});
+    boxes.addBox("east", "BuildingConstructiveElement", {7.8, 0.2, 0}, {8, 5.8, 3});
+    boxes.addBox("west, beside the corner", "BuildingConstructiveElement", {0, 5.5, 0}, {0.2, 5.8, 3});
+    boxes.addBox("west", "BuildingConstructiveElement", {0, 0.2, 0}, {0.2, 4.5, 3});
+    boxes.addBox("window", "Window", {0, 4.5, 0}, {0.05, 5.5, 3});
+    EXPECT_EQ(chainsOf(planOf(boxes), DimensionSide::Above), (Chains{{200, 7600, 200}, {8000}}));
+}
+
+// A rafter that is let into the wall has no stops.
+TEST(Dimensions, NotchesOfRaftersHaveNoStops) {
+    Boxes boxes = house();
+    boxes.addBox("rafter", "BuildingFurniture", {5, 5.8, 0}, {5.08, 6.2, 3});
+    boxes.volume.labels.labels.back().volume = 1e-3;
+    EXPECT_EQ(chainsOf(planOf(boxes), DimensionSide::Above), (Chains{{300, 2700, 200, 4500, 300}, {8000}}));
+}
+
+// The plan of an attic cuts the roof where it happens to meet it, and beyond the gables.
+TEST(Dimensions, RoofsAreNotMeasuredInPlansWithWalls) {
+    Boxes boxes;
+    boxes.addBox("room", "BuildingRoom", {0.3, 0.5, 0}, {7.7, 5.5, 3});
+    boxes.addBox("west", "BuildingConstructiveElement", {0, 0.5, 0}, {0.3, 5.5, 3});
+    boxes.addBox("east", "BuildingConstructiveElement", {7.7, 0.5, 0}, {8, 5.5, 3});
+    boxes.addBox("roof 1", "BuildingConstructiveElement", {-0.5, 0, 0}, {8.5, 0.5, 3});
+    boxes.volume.labels.labels.back().attributes.push_back({"ifcType", std::string("IfcRoof"), ""});
+    boxes.addBox("Dach-2", "BuildingConstructiveElement", {-0.5, 5.5, 0}, {8.5, 6, 3});
+    boxes.volume.labels.labels.back().name = "Dach-2";
+    boxes.volume.labels.labels.back().attributes.push_back({"ifcType", std::string("IfcSlab"), ""});
+    // A rafter between the roof and the gable.
+    boxes.addBox("rafter", "BuildingConstructiveElement", {-0.2, 0.5, 0}, {0, 0.7, 3});
+    boxes.volume.labels.labels.back().attributes.push_back({"ifcType", std::string("IfcMember"), ""});
+    const SectionDrawing drawing = planOf(boxes);
+    EXPECT_EQ(chainsOf(drawing, DimensionSide::Below).back(), (std::vector<long>{8000}));
+    EXPECT_EQ(chainsOf(drawing, DimensionSide::Left).back(), (std::vector<long>{5000}));
+    // A roof over walls that are only those of a part of the house is measured.
+    boxes.addBox("far roof", "BuildingConstructiveElement", {-0.5, 6, 0}, {20, 14, 3});
+    boxes.volume.labels.labels.back().attributes.push_back({"ifcType", std::string("IfcRoof"), ""});
+    EXPECT_EQ(chainsOf(planOf(boxes), DimensionSide::Below).back(), (std::vector<long>{20500}));
+}
+
 // A handle of a door that reaches into the room is not a wall.
 TEST(Dimensions, WhatIsNarrowDividesNothing) {
     Boxes boxes = house();
@@ -233,7 +292,27 @@ TEST(Dimensions, SillAndHeadAreThoseOfTheOpeningInTheWall) {
     EXPECT_EQ(left.front(), (std::vector<long>{1100, 1200, 800}));
 }
 
-//   2 storeys of 2.5 m clear height, slabs of 0.3 m
+// A threshold does not count as a sill.
+TEST(Dimensions, DoorsHaveASillOnlyWhereOneSteps) {
+    for (const double sill : {0.01, 0.2}) {
+        Boxes boxes;
+        boxes.addBox("room", "BuildingRoom", {0, 0.3, 0}, {4, 4, 2.7});
+        boxes.addBox("slab", "BuildingConstructiveElement", {0, 0, -0.2}, {4, 4, 0});
+        boxes.addBox("west", "BuildingConstructiveElement", {0, 0, 0}, {1, 0.3, 2.9});
+        boxes.addBox("east", "BuildingConstructiveElement", {2, 0, 0}, {4, 0.3, 2.9});
+        boxes.addBox("threshold", "BuildingConstructiveElement", {1, 0, 0}, {2, 0.3, sill});
+        boxes.addBox("lintel", "BuildingConstructiveElement", {1, 0, 2.1}, {2, 0.3, 2.9});
+        boxes.addBox("door", "Door", {1, 0.1, sill}, {2, 0.2, 2.1});
+        SectionOptions options;
+        options.dimensions = true;
+        const auto drawing =
+            drawSection(boxes.volume, {{0, 0, 1}, boxes.volume.grid.origin() + Vec3d{0, 0, 1.1}}, options);
+        ASSERT_EQ(drawing->openings.size(), 1u);
+        EXPECT_NEAR(drawing->openings.front().sill, sill > 0.05 ? sill : 0, 1e-5);
+    }
+}
+
+//   2 storeys of 2.5 m clear height, slabs of 0.3 m, and a space in the open air on the roof
 TEST(Dimensions, SectionsHaveClearHeightsStoreysAndTheWhole) {
     Boxes boxes;
     boxes.addBox("lower", "BuildingRoom", {0.3, 0.3, 0.3}, {5.7, 3.7, 2.8});
@@ -242,6 +321,7 @@ TEST(Dimensions, SectionsHaveClearHeightsStoreysAndTheWhole) {
     boxes.addBox("slab", "BuildingConstructiveElement", {0, 0, 2.8}, {6, 4, 3.1});
     boxes.addBox("roof", "BuildingConstructiveElement", {0, 0, 5.6}, {6, 4, 6});
     boxes.addBox("flag", "BuildingInstallation", {2, 2, 6}, {2.1, 2.1, 9});
+    boxes.addBox("roof terrace", "BuildingRoom", {0, 0, 6}, {6, 4, 9});
     for (const double z : {0.3, 3.1}) {
         boxes.addBox("west", "BuildingConstructiveElement", {0, 0, z}, {0.3, 4, z + 2.5});
         boxes.addBox("east", "BuildingConstructiveElement", {5.7, 0, z}, {6, 4, z + 2.5});

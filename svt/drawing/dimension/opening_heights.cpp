@@ -1,5 +1,7 @@
 #include <svt/drawing/dimension/dimension_chains.hpp>
 
+#include <svt/drawing/levels/level_parts.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,6 +16,7 @@ constexpr double kOnePlace = 0.3;      // metres: windows nearer than this are o
 constexpr double kLeastOpening = 0.3;  // metres of width and height
 constexpr double kHighestDoor = 6;     // metres
 constexpr double kBesideWall = 0.2;    // metres from the face, where rooms are looked for
+constexpr double kThreshold = 0.05;    // metres
 
 // A window or door in a plan.
 struct CutOpening {
@@ -22,6 +25,10 @@ struct CutOpening {
     double length = 0, depth = 0;
     double low = -kInfinity, high = kInfinity;  // faces of the hull below and above the plane, metres above the grid
 };
+
+bool isDoorLabel(const volume::Label& label) {
+    return label.className.starts_with("Door") || lowerTexts(label, {"ifcType"}).find("ifcdoor") != std::string::npos;
+}
 
 PlanePoint moved(PlanePoint p, PlanePoint direction, double by) noexcept {
     return {p.u + direction.u * by, p.v + direction.v * by};
@@ -261,7 +268,9 @@ std::vector<OpeningHeights> findOpeningHeights(const SectionDrawing& drawing, co
             std::tie(low, high) = ownHeights(opening.label, volume);
         }
         if (!(high - low >= kLeastOpening)) continue;
-        heights.sill = std::max(0.0, low - floor);
+        // The threshold of a door does not count as a sill.
+        const bool isDoor = isDoorLabel(volume.labels.labels[opening.label]);
+        heights.sill = low - floor < (isDoor ? kThreshold : 0) ? 0 : low - floor;
         heights.head = high - floor;
         heights.at = moved(opening.middle, heights.away, halfWall(opening, heights.away, drawing, roles));
         found.push_back(heights);

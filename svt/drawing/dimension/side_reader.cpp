@@ -13,6 +13,8 @@ constexpr double kStep = 0.05;          // metres: smaller steps of a face have 
 constexpr double kThickestFace = 1;     // metres
 constexpr double kThinnestFace = 0.3;   // metres: walls of a side differ by a factor of two at most, from here on
 constexpr double kNarrowestRoom = 0.3;  // metres, across the face
+constexpr double kWidestNotch = 0.15;   // metres
+constexpr double kDeeper = 1.75;        // times the thickness of the wall: behind it lies a niche of the next wall
 constexpr double kDeepestCasing = 0.25, kWidestCasing = 0.1;  // metres
 constexpr double kOblique = 0.035;                            // slope of a face across the line of sight, 2 degrees
 constexpr std::size_t kMostCrossings = 50'000'000;
@@ -26,6 +28,10 @@ SideReader::SideReader(const SectionDrawing& drawing, const std::vector<PartRole
     for (const SectionBorder& border : drawing.borders)
         for (std::size_t n = 0; n + 1 < border.points.size(); ++n)
             addEdge(border.points[n], border.points[n + 1], border);
+    // Windows and doors without a body close the opening too.
+    for (const SectionLine& line : drawing.lines)
+        for (std::size_t n = 0; matterOf(line.label) == Matter::Filling && n + 1 < line.points.size(); ++n)
+            addEdge(line.points[n], line.points[n + 1], {{}, line.label, line.label});
 }
 
 bool SideReader::read() {
@@ -125,6 +131,7 @@ bool SideReader::findParts() {
     }
     for (std::size_t n = 0; n < edgesOf.size(); ++n) parts_.push_back(partOf(edgesOf[n], stops_[n], stops_[n + 1]));
     removeCasings();
+    fillNotches();
     closeNiches();
     return true;
 }
@@ -171,6 +178,23 @@ void SideReader::removeCasings() {
     }
 }
 
+// A rafter or a pipe that is let into a wall leaves a notch, which has no stops: the wall goes on in one plane beside it.
+void SideReader::fillNotches() {
+    for (std::size_t first = 1; first + 1 < parts_.size(); ++first) {
+        const SeenPart& before = parts_[first - 1];
+        if (before.matter != Matter::Wall) continue;
+        const auto isDeeper = [&](std::size_t n) {
+            return parts_[n].matter == Matter::Wall && parts_[n].face.near > before.face.far + kStep;
+        };
+        std::size_t end = first;
+        while (end < parts_.size() && isDeeper(end) && stops_[end + 1] - stops_[first] < kWidestNotch) ++end;
+        if (end == first || end == parts_.size() || parts_[end].matter != Matter::Wall ||
+            std::abs(parts_[end].face.near - before.face.far) > kStep)
+            continue;
+        for (std::size_t n = first; n < end; ++n) parts_[n].face = before.face;
+    }
+}
+
 // Behind more than the usual thickness lies the niche of a window in a wall that runs away from the eye; so does
 // what is too narrow for a room.
 void SideReader::closeNiches() {
@@ -181,9 +205,26 @@ void SideReader::closeNiches() {
         if (part.face.thickness > 2 * std::max(thinnest, kThinnestFace)) part.face.room = kInWall;
     for (std::size_t first = 0, end = 0; first < parts_.size(); first = end) {
         for (end = first + 1; end < parts_.size() && parts_[end].face.room == parts_[first].face.room;) ++end;
-        if (parts_[first].face.room == kNoLabel || stops_[end] - stops_[first] >= kNarrowestRoom) continue;
+        if (parts_[first].face.room == kNoLabel) continue;
+        if (parts_[first].face.room == kOpenRoom) closeNichesBeside(first, end);
+        if (stops_[end] - stops_[first] >= kNarrowestRoom) continue;
         for (std::size_t n = first; n < end; ++n) parts_[n].face.room = kInWall;
     }
+}
+
+// Without spaces, the air in a niche continues the air of the room beside it. The niche is narrow, and lies deeper.
+void SideReader::closeNichesBeside(std::size_t first, std::size_t end) {
+    double least = kThickestFace;
+    for (std::size_t n = first; n < end; ++n)
+        if (parts_[n].matter == Matter::Wall) least = std::min(least, parts_[n].face.thickness);
+    const auto isDeeper = [&](std::size_t n) { return parts_[n].face.thickness > kDeeper * least; };
+    std::size_t low = first, high = end;
+    while (low < end && isDeeper(low)) ++low;
+    while (high > low && isDeeper(high - 1)) --high;
+    if (stops_[low] - stops_[first] < kNarrowestRoom)
+        for (std::size_t n = first; n < low; ++n) parts_[n].face.room = kInWall;
+    if (stops_[end] - stops_[high] < kNarrowestRoom)
+        for (std::size_t n = high; n < end; ++n) parts_[n].face.room = kInWall;
 }
 
 SideReader::SeenPart SideReader::partOf(std::vector<std::uint32_t>& crossed, double from, double to) const {
@@ -230,8 +271,8 @@ std::uint32_t SideReader::roomBehind(std::span<const std::uint32_t> crossed, dou
         for (; end < crossed.size() && !isSolid(edges_[crossed[end]].behind); ++end)
             if (room == kInWall && matterOf(edges_[crossed[end]].behind) == Matter::Space)
                 room = edges_[crossed[end]].behind;
-        if (room != kInWall && end > n && end < crossed.size() &&
-            edges_[crossed[end]].depthAt(at) - depth >= kNarrowestRoom) {
+        const std::size_t last = room == kInWall ? n : endOfRoom(crossed, n, end, room);
+        if (last > n && last < crossed.size() && edges_[crossed[last]].depthAt(at) - depth >= kNarrowestRoom) {
             thickness = depth - face;
             return room;
         }
@@ -239,6 +280,17 @@ std::uint32_t SideReader::roomBehind(std::span<const std::uint32_t> crossed, dou
         n = end;
     }
     return kInWall;
+}
+
+// Where a room ends that lies between the edges `first` and `end`: at the next wall. Windows without a body leave a gap
+// in the wall: there, a space ends at its own border.
+std::size_t SideReader::endOfRoom(std::span<const std::uint32_t> crossed, std::size_t first, std::size_t end,
+                                  std::uint32_t room) const noexcept {
+    if (end < crossed.size() || room == kOpenRoom) return end;
+    std::size_t last = first;
+    for (std::size_t n = first; n < crossed.size(); ++n)
+        if (edges_[crossed[n]].behind == room) last = n + 1;
+    return last;
 }
 
 // Whether a narrow part continues in its neighbours, so that together they are wide enough.

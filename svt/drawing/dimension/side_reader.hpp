@@ -58,10 +58,14 @@ private:
     void addEdge(PlanePoint a, PlanePoint b, const SectionBorder& border);
     [[nodiscard]] bool findParts();
     void removeCasings();
+    void fillNotches();
     void closeNiches();
+    void closeNichesBeside(std::size_t first, std::size_t end);
     [[nodiscard]] SeenPart partOf(std::vector<std::uint32_t>& crossed, double from, double to) const;
     [[nodiscard]] Face faceOf(std::span<const std::uint32_t> crossed, double from, double to) const;
     [[nodiscard]] std::uint32_t roomBehind(std::span<const std::uint32_t> crossed, double at, double& thickness) const;
+    [[nodiscard]] std::size_t endOfRoom(std::span<const std::uint32_t> crossed, std::size_t first, std::size_t end,
+                                        std::uint32_t room) const noexcept;
     [[nodiscard]] bool isPiece(std::size_t n) const noexcept;
     template <class IsStop>
     [[nodiscard]] std::vector<double> stopsWhere(const IsStop& isStop) const;

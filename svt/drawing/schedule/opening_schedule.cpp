@@ -40,7 +40,17 @@ std::string typeOf(const volume::Label& label) {
     return {};
 }
 
-bool isDoorClass(std::string_view className) noexcept { return className.starts_with("Door"); }
+// Files of CityGML 3.0 may have doors and windows as elements that state their type in IFC.
+enum class OpeningKind : std::uint8_t { None, Door, Window };
+OpeningKind kindOf(const volume::Label& label) {
+    if (model::isFilling(label.className))
+        return label.className.starts_with("Door") ? OpeningKind::Door : OpeningKind::Window;
+    if (label.className != "BuildingConstructiveElement") return OpeningKind::None;
+    const std::string type = lowerTexts(label, {"ifcType"});
+    return type.find("ifcdoor") != std::string::npos     ? OpeningKind::Door
+           : type.find("ifcwindow") != std::string::npos ? OpeningKind::Window
+                                                         : OpeningKind::None;
+}
 
 // The outermost opening that each label is part of.
 std::vector<std::uint32_t> openingOfLabels(const volume::LabelTable& table) {
@@ -49,7 +59,7 @@ std::vector<std::uint32_t> openingOfLabels(const volume::LabelTable& table) {
         const volume::Label& label = table.labels[l];
         if (label.parent != kNoLabel && label.parent < l && openings[label.parent] != kNoLabel)
             openings[l] = openings[label.parent];
-        else if (model::isFilling(label.className))
+        else if (kindOf(label) != OpeningKind::None)
             openings[l] = l;
     }
     return openings;
@@ -67,8 +77,9 @@ struct NormalSum {
             for (int j = 0; j < 3; ++j) products[std::size_t(i)][std::size_t(j)] += twice[i] * twice[j] / size;
     }
     // The direction that most of the faces look along: the eigenvector of the largest eigenvalue, by iteration.
-    [[nodiscard]] std::optional<Vec3d> main() const {
-        Vec3d at{0.6, 0.7, 0.4};
+    // \param start  the result lies in the space of eigenvectors that this one has a part in
+    [[nodiscard]] std::optional<Vec3d> main(Vec3d start = {0.6, 0.7, 0.4}) const {
+        Vec3d at = start;
         for (int n = 0; n < 100; ++n) {
             Vec3d next{};
             for (int i = 0; i < 3; ++i)
@@ -81,10 +92,47 @@ struct NormalSum {
     }
 };
 
-std::optional<OpeningPlace> placeOf(const NormalSum& sum, const volume::SemanticVolume& volume) {
+// The extent of the points of an opening along a direction.
+double extentAlong(const NormalSum& sum, const volume::SemanticVolume& volume, Vec3d direction) {
+    double low = kInfinity, high = -kInfinity;
+    for (const std::uint32_t point : sum.points) {
+        const double at = dot(volume.vectors.position(point, {}), direction);
+        low = std::min(low, at);
+        high = std::max(high, at);
+    }
+    return high - low;
+}
+
+// Reveals and casings of a deep wall may have more area than the pane: then most faces look along the wall, or up. An
+// opening in a wall is wider than deep, and one in a floor is flat. A stated width decides where it fits only one side.
+Vec3d acrossWall(Vec3d normal, const NormalSum& sum, const volume::SemanticVolume& volume,
+                 const std::optional<double>& statedWidth) {
+    constexpr double kFlat = 0.95, kUpright = 0.3;  // cosines
+    constexpr double kClearly = 1.2;                // times deeper than wide
+    const Vec3d up = volume.grid.axes()[2];
+    const double rise = std::abs(dot(normal, up));
+    if (rise > kUpright && rise <= kFlat) return normal;
+    if (rise > kFlat) {
+        Vec3d start = volume.grid.axes()[0] + volume.grid.axes()[1] * 0.7;
+        const auto flat = sum.main(start - up * dot(start, up));
+        if (!flat || std::abs(dot(*flat, up)) > kUpright) return normal;
+        const Vec3d along = normalized(cross(up, *flat));
+        const double depth = std::min(extentAlong(sum, volume, *flat), extentAlong(sum, volume, along));
+        if (extentAlong(sum, volume, up) <= depth) return normal;
+        normal = *flat;
+    }
+    const Vec3d along = normalized(cross(up, normal));
+    const double width = extentAlong(sum, volume, along), depth = extentAlong(sum, volume, normal);
+    if (statedWidth && std::abs(width - *statedWidth) <= std::abs(depth - *statedWidth)) return normal;
+    return depth > kClearly * width ? along : normal;
+}
+
+std::optional<OpeningPlace> placeOf(const NormalSum& sum, const volume::SemanticVolume& volume,
+                                    const std::optional<double>& statedWidth) {
     constexpr double kFlat = 0.95;  // cosine: hatches lie in floors
-    const auto normal = sum.main();
+    auto normal = sum.main();
     if (!normal) return std::nullopt;
+    normal = acrossWall(*normal, sum, volume, statedWidth);
     const Vec3d up = volume.grid.axes()[2], origin = volume.grid.origin();
     OpeningPlace place;
     place.normal = *normal;
@@ -122,7 +170,8 @@ std::vector<std::optional<OpeningPlace>> placesOf(const volume::SemanticVolume& 
         sum.points.insert(sum.points.end(), triangle.corners.begin(), triangle.corners.end());
     }
     std::vector<std::optional<OpeningPlace>> places(openings.size());
-    for (const auto& [opening, sum] : sums) places[opening] = placeOf(sum, volume);
+    for (const auto& [opening, sum] : sums)
+        places[opening] = placeOf(sum, volume, numberOf(volume.labels.labels[opening], "overallWidth"));
     return places;
 }
 
@@ -140,7 +189,8 @@ struct OpeningKey {
 double roundedSize(double metres) { return std::round(metres * 1e5) / 1e5 + 0.0; }
 
 // Surfaces of doors and windows count only where the model has no bodies of their kind. The two sides of a wall count
-// once: a surface is left out if another one of its size is nearer than a wall is thick.
+// once, also those of doors and windows without thickness: a surface is left out if another one of its size is nearer
+// than a wall is thick.
 bool isOtherSide(const OpeningPlace& place, bool isDoor, const std::vector<std::pair<bool, OpeningPlace>>& surfaces) {
     constexpr double kWall = 0.7, kSameSize = 0.05;  // metres
     return std::any_of(surfaces.begin(), surfaces.end(), [&](const auto& other) {
@@ -148,6 +198,26 @@ bool isOtherSide(const OpeningPlace& place, bool isDoor, const std::vector<std::
                std::abs(other.second.width - place.width) < kSameSize &&
                std::abs(other.second.height - place.height) < kSameSize;
     });
+}
+
+// The facts of one opening, without its mark.
+OpeningRow rowOf(const volume::Label& label, const std::optional<OpeningPlace>& place, std::size_t level,
+                 std::span<const BuildingLevel> levels) {
+    constexpr double kThreshold = 0.05;  // metres
+    OpeningRow row;
+    row.isDoor = kindOf(label) == OpeningKind::Door;
+    row.type = typeOf(label);
+    row.level = level;
+    row.statedWidth = numberOf(label, "overallWidth");
+    row.statedHeight = numberOf(label, "overallHeight");
+    if (!place) return row;
+    row.measuredWidth = roundedSize(place->width);
+    row.measuredHeight = roundedSize(place->height);
+    if (levels.empty()) return row;
+    row.sill = roundedSize(place->low - levels[level].roomFloor.value_or(levels[level].floor));
+    // The threshold of a door does not count.
+    if (row.isDoor && std::abs(*row.sill) < kThreshold) row.sill = 0;
+    return row;
 }
 
 long millimetresOf(const std::optional<double>& metres) { return metres ? std::lround(*metres * 1000) : -1; }
@@ -162,34 +232,29 @@ OpeningSchedule scheduleOpenings(const volume::SemanticVolume& volume, std::span
     schedule.marks.resize(labels.size());
     const std::vector<std::size_t> levelOf = levels.empty() ? std::vector<std::size_t>(labels.size(), 0)
                                                             : levelsOfLabels(volume, levels, labelExtents(volume));
-    const auto hasBodies = [&](std::string_view className) {
-        return std::any_of(labels.begin(), labels.end(),
-                           [&](const auto& label) { return label.className == className; });
+    const auto hasBodies = [&](OpeningKind kind) {
+        return std::any_of(labels.begin(), labels.end(), [&](const auto& label) {
+            return kindOf(label) == kind && !label.className.ends_with("Surface");
+        });
     };
-    const bool hasDoors = hasBodies("Door"), hasWindows = hasBodies("Window");
+    const bool hasDoors = hasBodies(OpeningKind::Door), hasWindows = hasBodies(OpeningKind::Window);
     std::vector<std::pair<bool, OpeningPlace>> surfaces;             // whether it is a door
     std::map<OpeningKey, std::map<std::size_t, OpeningRow>> groups;  // by key, then level
     std::map<OpeningKey, std::size_t> lowest;                        // level at which a key first occurs
     for (std::uint32_t l = 0; l < labels.size(); ++l) {
         if (schedule.openings[l] != l) continue;
         const auto& place = schedule.places[l];
-        OpeningRow row;
-        row.isDoor = isDoorClass(labels[l].className);
-        row.type = typeOf(labels[l]);
-        row.level = levelOf[l];
-        row.statedWidth = numberOf(labels[l], "overallWidth");
-        row.statedHeight = numberOf(labels[l], "overallHeight");
-        if (place) row.measuredWidth = roundedSize(place->width);
-        if (place) row.measuredHeight = roundedSize(place->height);
+        OpeningRow row = rowOf(labels[l], place, levelOf[l], levels);
         if (!place && !row.statedWidth && !row.statedHeight) {
             ++schedule.unknown;
             continue;
         }
-        if (place && labels[l].className.ends_with("Surface")) {
-            if ((row.isDoor ? hasDoors : hasWindows) || isOtherSide(*place, row.isDoor, surfaces)) continue;
+        const bool isSurface = labels[l].className.ends_with("Surface");
+        if (place && isSurface && (row.isDoor ? hasDoors : hasWindows)) continue;
+        if (place && (isSurface || labels[l].filling == volume::Filling::Surface)) {
+            if (isOtherSide(*place, row.isDoor, surfaces)) continue;
             surfaces.emplace_back(row.isDoor, *place);
         }
-        if (place && !levels.empty()) row.sill = roundedSize(place->low - levels[row.level].floor);
         const OpeningKey key{!row.isDoor,
                              row.type,
                              {millimetresOf(row.statedWidth), millimetresOf(row.statedHeight),

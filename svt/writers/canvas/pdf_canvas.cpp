@@ -6,6 +6,7 @@
 #include <svt/writers/canvas/pdf_layers.hpp>
 #include <svt/writers/canvas/system_fonts.hpp>
 #include <svt/writers/canvas/tile_path.hpp>
+#include <svt/writers/canvas/visual_order.hpp>
 #include <svt/writers/sheet_writer.hpp>
 
 #include <cairo/cairo-ft.h>
@@ -239,10 +240,11 @@ public:
             cairo_.restore(context_);
             return;
         }
-        const double width = text.anchor == TextAnchor::Start ? 0 : widthOnPaper(text.text, text.size);
+        const std::string letters = orderedText(text.text);
+        const double width = text.anchor == TextAnchor::Start ? 0 : widthOnPaper(letters, text.size);
         const double x = text.at.x - (text.anchor == TextAnchor::Middle ? 0.5 * width : width);
         cairo_.set_font_size(context_, text.size);
-        const std::vector<TextRun> runs = runsOf(text.text);
+        const std::vector<TextRun> runs = runsOf(letters);
         const auto drawRuns = [&](auto draw) {
             cairo_.new_path(context_);
             cairo_.move_to(context_, x, text.at.y);
@@ -286,6 +288,13 @@ private:
         cairo_font_face_t* font;
         std::string text;
     };
+    // Arabic and Hebrew letters from left to right, joined.
+    std::string orderedText(const std::string& text) {
+        if (!hasRightToLeft(text)) return text;
+        std::optional<std::string> ordered = visualOrder(text);
+        file_.hasUnorderedText = file_.hasUnorderedText || !ordered;
+        return ordered ? std::move(*ordered) : text;
+    }
     // Letters of no font stay with the embedded one, which draws boxes.
     std::vector<TextRun> runsOf(std::string_view text) {
         std::vector<TextRun> runs;
@@ -303,8 +312,6 @@ private:
         if (letter < 0x80) return font_;
         const auto [known, isNew] = fontOfLetter_.try_emplace(letter, font_);
         if (!isNew) return known->second;
-        file_.hasRightToLeft = file_.hasRightToLeft || (letter >= 0x0590 && letter <= 0x08FF) ||
-                               (letter >= 0xFB1D && letter <= 0xFDFF) || (letter >= 0xFE70 && letter <= 0xFEFC);
         if (image::missingLetters(bytes).empty()) return font_;
         FT_Face face = systemFonts_.faceOf(letter);
         if (face == nullptr) {

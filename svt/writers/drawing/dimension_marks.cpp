@@ -1,5 +1,6 @@
 #include <svt/writers/drawing/dimension_marks.hpp>
 
+#include <svt/drawing/clip_segment.hpp>
 #include <svt/image/text.hpp>
 
 #include <fmt/format.h>
@@ -177,26 +178,61 @@ private:
         const bool isAbove = opening.away.u * up.u + opening.away.v * up.v > 0;
         const double above = static_cast<double>(lines.size() - 1) * kHeightsPitch;
         const double top = isAbove ? kHeightsGap + above : -kHeightsGap - kCapital * kSmallSize;
-        std::vector<MarkText> texts;
-        for (const double shift : {0.0, 3.0, -3.0, 6.0, -6.0}) {
-            texts.clear();
+        const auto textsAt = [&](double shift, double out) {
+            std::vector<MarkText> texts;
             for (std::size_t n = 0; n < lines.size(); ++n) {
-                const double off = top - static_cast<double>(n) * kHeightsPitch;
+                const double off = top - static_cast<double>(n) * kHeightsPitch + (isAbove ? out : -out);
                 texts.push_back(
                     {{at.u + up.u * off + (isUpright ? 0 : shift), at.v + up.v * off + (isUpright ? shift : 0)},
                      kSmallSize,
                      lines[n],
                      isUpright});
             }
-            if (std::none_of(texts.begin(), texts.end(), [&](const MarkText& text) { return isTaken(boxOf(text)); })) {
-                for (MarkText& text : texts) {
-                    taken_.push_back(boxOf(text));
-                    placed_.heights.push_back(std::move(text));
+            return texts;
+        };
+        // The place with the fewest lines, and nearest to the wall among these.
+        constexpr double kLineCost = 3, kShiftCost = 0.3;  // millimetres of distance
+        const std::vector<MarkLine> near = linesAround(at);
+        std::vector<MarkText> best;
+        double least = kInfinity;
+        for (const double out : {0.0, 1.5, 3.0, 4.5, 6.0})
+            for (const double shift : {0.0, 3.0, -3.0, 6.0, -6.0}) {
+                double cost = out + kShiftCost * std::abs(shift);
+                if (cost >= least) continue;
+                std::vector<MarkText> texts = textsAt(shift, out);
+                for (const MarkText& text : texts) {
+                    const TextBox box = boxOf(text);
+                    if (isTaken(box)) cost = kInfinity;
+                    for (const MarkLine& line : near)
+                        if (drawing::clipSegment(line.from, line.to, box.low, box.high)) cost += kLineCost;
                 }
-                return;
+                if (cost >= least) continue;
+                least = cost;
+                best = std::move(texts);
             }
+        if (best.empty()) ++placed_.withoutPlace;
+        for (MarkText& text : best) {
+            taken_.push_back(boxOf(text));
+            placed_.heights.push_back(std::move(text));
         }
-        ++placed_.withoutPlace;
+    }
+
+    // The lines of the drawing around a point, millimetres.
+    [[nodiscard]] std::vector<MarkLine> linesAround(PlanePoint at) const {
+        constexpr double kReach = 20;
+        const PlanePoint low{at.u - kReach, at.v - kReach}, high{at.u + kReach, at.v + kReach};
+        std::vector<MarkLine> lines;
+        const auto add = [&](PlanePoint from, PlanePoint to) {
+            const PlanePoint a{from.u * millimetres_, from.v * millimetres_},
+                b{to.u * millimetres_, to.v * millimetres_};
+            if (const auto part = drawing::clipSegment(a, b, low, high)) lines.push_back({part->first, part->second});
+        };
+        for (const drawing::SectionBorder& border : drawing_.borders)
+            for (std::size_t n = 0; n + 1 < border.points.size(); ++n) add(border.points[n], border.points[n + 1]);
+        for (const drawing::SectionLine& line : drawing_.lines)
+            for (std::size_t n = 0; n + 1 < line.points.size(); ++n) add(line.points[n], line.points[n + 1]);
+        for (const drawing::BeyondLine& line : drawing_.beyond) add(line.from, line.to);
+        return lines;
     }
 
     // The shorter of the dimensions of a room, millimetres.

@@ -112,7 +112,14 @@ bool DrawingStyle::isSheet(std::uint32_t label) const noexcept {
 
 bool DrawingStyle::isBoldBetween(std::uint32_t left, std::uint32_t right) const noexcept {
     if ((isSheet(left) && !isSpace(right)) || (isSheet(right) && !isSpace(left))) return false;
+    if (isBold(left) && isBold(right)) return isGround(left) != isGround(right);
     return isBold(left) != isBold(right);
+}
+
+// A wall keeps its outline against the earth around it.
+bool DrawingStyle::isGround(std::uint32_t label) const noexcept {
+    return (*hatches_)[label] == Hatch::Earth ||
+           model::classRank(volume_.labels.labels[label].className) == model::ClassRank::Other;
 }
 
 bool DrawingStyle::isSlim(const SectionComponent& component, double millimetres) const noexcept {

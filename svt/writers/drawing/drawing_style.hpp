@@ -38,11 +38,12 @@ public:
     /// Cut load-bearing or enclosing parts have bold outlines. Fillings, furniture and parts that are only one or two
     /// lines thick have thin ones.
     [[nodiscard]] bool isBold(std::uint32_t label) const noexcept;
-    /// Thin between two cut parts and around fillings and furniture.
+    /// Thin between two cut parts and around fillings and furniture; bold between a part and the ground.
     [[nodiscard]] bool isBoldBetween(std::uint32_t left, std::uint32_t right) const noexcept;
 
 private:
     [[nodiscard]] bool isSheet(std::uint32_t label) const noexcept;
+    [[nodiscard]] bool isGround(std::uint32_t label) const noexcept;
     [[nodiscard]] bool isSlim(const drawing::SectionComponent& component, double millimetres) const noexcept;
 
     const volume::SemanticVolume& volume_;

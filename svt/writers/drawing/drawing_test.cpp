@@ -96,6 +96,20 @@ TEST(DrawingStyle, SheetsAreBoldOnlyTowardsRooms) {
     EXPECT_TRUE(style.isBoldBetween(2, 3));
 }
 
+// Before, a wall had a thin outline where it touched the ground, and a bold one elsewhere.
+TEST(DrawingStyle, WallsAreBoldAgainstTheGround) {
+    auto volume = roomInWalls();
+    for (const auto& [id, className] : {std::pair("ground", "TINRelief"), std::pair("wall", "WallSurface"),
+                                        std::pair("slab", "BuildingConstructiveElement")})
+        volume::test::addObject(volume, id, className).filling = volume::Filling::Solid;
+    const auto drawing = planOf(volume);
+    const DrawingStyle style(drawing, volume, 20);
+    EXPECT_TRUE(style.isBoldBetween(2, 3));
+    EXPECT_TRUE(style.isBoldBetween(4, 2));
+    EXPECT_FALSE(style.isBoldBetween(3, 4));
+    EXPECT_TRUE(style.isBoldBetween(2, volume::kNoLabel));
+}
+
 TEST(SvgDrawing, IsToScaleInMillimetres) {
     const auto volume = roomInWalls();
     const auto drawing = planOf(volume);
@@ -167,6 +181,31 @@ TEST(DxfDrawing, HatchesWhatIsCutAndFollowsTheRings) {
     // Elevation, four corners of the wall, four of the hole.
     EXPECT_EQ(dxf.points("HATCH").size(), 9u);
     EXPECT_EQ(hatches[0].value(8), "Wall_Surface_HATCH");
+}
+
+// Two walls of one material have no border between them: their outlines are open there. Before, both had a line.
+TEST(DxfDrawing, JointsOfWallsAreNoLines) {
+    const auto volume = roomInWalls();
+    auto drawing = planOf(volume);
+    drawing.components.clear();
+    drawing.borders.clear();
+    const auto addWall = [&](std::uint32_t label, double left, double right) {
+        drawing::SectionPolygon polygon{{{left, 0}, {right, 0}, {right, 1}, {left, 1}}, {}, right - left};
+        drawing.components.push_back({label, {polygon}, right - left});
+    };
+    addWall(0, 0, 2);
+    addWall(1, 2, 5);
+    drawing.borders.push_back({{{2, 0}, {5, 0}, {5, 1}, {2, 1}}, 1, volume::kNoLabel});
+    drawing.borders.push_back({{{2, 1}, {0, 1}, {0, 0}, {2, 0}}, 0, volume::kNoLabel});
+    const auto outlines = DxfFile(makeDxf(drawing, volume)).of("LWPOLYLINE");
+    ASSERT_EQ(outlines.size(), 2u);
+    for (const DxfPart& outline : outlines) {
+        EXPECT_EQ(outline.value(70), "0") << "open";
+        EXPECT_EQ(outline.value(90), "4");
+    }
+    drawing.borders.push_back({{{2, 0}, {2, 1}}, 0, 1});
+    for (const DxfPart& outline : DxfFile(makeDxf(drawing, volume)).of("LWPOLYLINE"))
+        EXPECT_EQ(outline.value(70), "1") << "closed, with a border between them";
 }
 
 TEST(DxfDrawing, NamesLayersAfterIso13567WhereAsked) {

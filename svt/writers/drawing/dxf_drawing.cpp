@@ -155,11 +155,16 @@ private:
     void addEntities() {
         for (const drawing::SectionComponent& component : drawing_.components)
             for (const drawing::SectionPolygon& polygon : component.polygons) addHatch(component.label, polygon);
+        const DxfOutlines outlines(drawing_);
         for (const drawing::SectionComponent& component : drawing_.components) {
             const std::string layer = layerOf(component.label, DxfContent::Element);
+            const auto addRing = [&](const drawing::Ring& ring) {
+                bool isClosed = true;
+                for (const auto& part : outlines.partsOf(ring, isClosed)) addPolyline(part, isClosed, layer, component);
+            };
             for (const drawing::SectionPolygon& polygon : component.polygons) {
-                addPolyline(polygon.outer, true, layer, component);
-                for (const drawing::Ring& hole : polygon.holes) addPolyline(hole, true, layer, component);
+                addRing(polygon.outer);
+                for (const drawing::Ring& hole : polygon.holes) addRing(hole);
             }
             if (component.lineLength > 0) addLines(component, layer);
             if (!component.polygons.empty() && model::isSpace(labelOf(component.label).className)) addName(component);

@@ -5,6 +5,7 @@
 #include <svt/writers/drawing/drawing_text.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <variant>
 
 namespace svt::writers {
@@ -89,6 +90,50 @@ std::string isoLayerOf(const volume::Label& label, bool isExternal, DxfContent c
     if (code == "32" && isExternal) code = "31";
     const std::string optional = field.empty() ? std::string() : std::string(10, '-').append(field);
     return padded("A-", 2) + padded(code, 6) + static_cast<char>(content) + "-" + optional;
+}
+
+DxfOutlines::DxfOutlines(const drawing::SectionDrawing& drawing) {
+    for (const drawing::SectionBorder& border : drawing.borders)
+        for (std::size_t n = 0; n + 1 < border.points.size(); ++n) {
+            const drawing::PlanePoint a = border.points[n], b = border.points[n + 1];
+            borders_.insert({a.u, a.v, b.u, b.v});
+            borders_.insert({b.u, b.v, a.u, a.v});
+        }
+    const auto addRing = [&](const drawing::Ring& ring) {
+        for (std::size_t n = 0; n < ring.size(); ++n) {
+            const drawing::PlanePoint a = ring[n], b = ring[(n + 1) % ring.size()];
+            rings_.insert({a.u, a.v, b.u, b.v});
+        }
+    };
+    for (const drawing::SectionComponent& component : drawing.components)
+        for (const drawing::SectionPolygon& polygon : component.polygons) {
+            addRing(polygon.outer);
+            for (const drawing::Ring& hole : polygon.holes) addRing(hole);
+        }
+}
+
+// A joint is an edge of two components without a border.
+bool DxfOutlines::isJoint(drawing::PlanePoint from, drawing::PlanePoint to) const {
+    return rings_.contains({to.u, to.v, from.u, from.v}) && !borders_.contains({from.u, from.v, to.u, to.v});
+}
+
+std::vector<std::vector<drawing::PlanePoint>> DxfOutlines::partsOf(const drawing::Ring& ring, bool& isClosed) const {
+    const std::size_t count = ring.size();
+    std::vector<std::uint8_t> isJointEdge(count, 0);
+    std::size_t first = count;  // an edge behind a joint
+    for (std::size_t n = 0; n < count; ++n) isJointEdge[n] = isJoint(ring[n], ring[(n + 1) % count]) ? 1 : 0;
+    for (std::size_t n = 0; n < count; ++n)
+        if (isJointEdge[n] != 0 && isJointEdge[(n + 1) % count] == 0) first = (n + 1) % count;
+    isClosed = std::find(isJointEdge.begin(), isJointEdge.end(), 1) == isJointEdge.end();
+    if (isClosed) return {ring};
+    std::vector<std::vector<drawing::PlanePoint>> parts;
+    for (std::size_t n = 0; first < count && n < count; ++n) {
+        const std::size_t edge = (first + n) % count;
+        if (isJointEdge[edge] != 0) continue;
+        if (n == 0 || isJointEdge[(edge + count - 1) % count] != 0) parts.push_back({ring[edge]});
+        parts.back().push_back(ring[(edge + 1) % count]);
+    }
+    return parts;
 }
 
 std::string isoLayerOf(DxfContent content) { return std::string("A-------") + static_cast<char>(content) + "-"; }

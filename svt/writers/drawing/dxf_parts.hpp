@@ -1,13 +1,17 @@
 #pragma once
 /// \file
-/// Names of layers and patterns of hatches in DXF drawings.
+/// Names of layers, patterns of hatches and outlines in DXF drawings.
 
 #include <svt/drawing/hatches.hpp>
+#include <svt/drawing/section_drawing.hpp>
 #include <svt/volume/label_table.hpp>
 
+#include <array>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace svt::writers {
 
@@ -41,5 +45,22 @@ enum class DxfContent : char { Element = 'E', Hatch = 'H', Text = 'T', Dimension
                                      std::string_view field = {});
 /// The same for content that does not belong to a component: texts, dimensions.
 [[nodiscard]] std::string isoLayerOf(DxfContent content);
+
+/// Outlines of components without the joints between walls of one material: the drawing has no border there.
+class DxfOutlines {
+public:
+    explicit DxfOutlines(const drawing::SectionDrawing& drawing);
+
+    /// The parts of a ring that have borders; the whole ring if it has no joint.
+    /// \param isClosed  set to whether it is the whole ring
+    [[nodiscard]] std::vector<std::vector<drawing::PlanePoint>> partsOf(const drawing::Ring& ring,
+                                                                        bool& isClosed) const;
+
+private:
+    using Edge = std::array<double, 4>;  // u and v of both ends
+    [[nodiscard]] bool isJoint(drawing::PlanePoint from, drawing::PlanePoint to) const;
+
+    std::set<Edge> rings_, borders_;  // rings in their direction, borders in both
+};
 
 }  // namespace svt::writers

@@ -150,6 +150,73 @@ std::pair<double, bool> groundHeight(const volume::SemanticVolume& volume,
     return {lowest, false};
 }
 
+// The ground line of an elevation: the highest of its parts at a place, or one height everywhere.
+class GroundProfile {
+public:
+    GroundProfile(std::vector<GroundSegment> segments, double height)
+        : segments_(std::move(segments)), height_(height) {}
+
+    [[nodiscard]] bool isTerrain() const noexcept { return !segments_.empty(); }
+    [[nodiscard]] std::optional<double> heightAt(double u) const noexcept {
+        if (segments_.empty()) return height_;
+        std::optional<double> highest;
+        for (const auto& [a, b] : segments_) {
+            if (u < a.u || u > b.u) continue;
+            const double v = a.v + (b.v - a.v) * (u - a.u) / (b.u - a.u);
+            if (!highest || v > *highest) highest = v;
+        }
+        return highest;
+    }
+
+    // The shares of a line at which its side of the ground may change, ascending, with 0 and 1.
+    [[nodiscard]] std::vector<double> sharesOf(const drawing::BeyondLine& line) const {
+        std::vector<double> shares{0, 1};
+        const double du = line.to.u - line.from.u, dv = line.to.v - line.from.v;
+        const auto add = [&](double share) {
+            if (share > 0 && share < 1) shares.push_back(share);
+        };
+        if (segments_.empty() && dv != 0) add((height_ - line.from.v) / dv);
+        for (const auto& [a, b] : segments_) {
+            for (const PlanePoint end : {a, b})
+                if (du != 0) add((end.u - line.from.u) / du);
+            const double slope = (b.v - a.v) / (b.u - a.u), rise = dv - slope * du;
+            if (rise != 0) add((a.v + slope * (line.from.u - a.u) - line.from.v) / rise);
+        }
+        std::sort(shares.begin(), shares.end());
+        return shares;
+    }
+
+private:
+    std::vector<GroundSegment> segments_;  // metres
+    double height_;
+};
+
+// Adds the pieces of a line above and below the ground.
+void addPieces(const drawing::BeyondLine& line, const GroundProfile& ground, bool isAround,
+               std::vector<drawing::BeyondLine>& lines) {
+    constexpr double kTouch = 0.005;  // metres below the ground line
+    const auto at = [&](double share) {
+        return PlanePoint{line.from.u + (line.to.u - line.from.u) * share,
+                          line.from.v + (line.to.v - line.from.v) * share};
+    };
+    const std::vector<double> shares = ground.sharesOf(line);
+    const auto isBelow = [&](std::size_t n) {
+        const PlanePoint middle = at(0.5 * (shares[n] + shares[n + 1]));
+        const auto height = ground.heightAt(middle.u);
+        return height && middle.v < *height - kTouch;
+    };
+    for (std::size_t first = 0, end = 0; first + 1 < shares.size(); first = end) {
+        const bool below = isBelow(first);
+        for (end = first + 1; end + 1 < shares.size() && isBelow(end) == below;) ++end;
+        if (below && (isAround || ground.isTerrain())) continue;
+        drawing::BeyondLine piece = line;
+        if (shares[first] > 0) piece.from = at(shares[first]);
+        if (shares[end] < 1) piece.to = at(shares[end]);
+        if (below) piece.kind = drawing::BeyondKind::Hidden;
+        lines.push_back(piece);
+    }
+}
+
 }  // namespace
 
 MarkShapes drawGround(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
@@ -167,7 +234,7 @@ MarkShapes drawGround(const drawing::SectionDrawing& drawing, const volume::Sema
 
 GroundBefore drawGroundBefore(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                               std::span<const drawing::BuildingLevel> levels, double millimetres) {
-    constexpr double kOver = 6, kBelow = 5;  // millimetres beyond the drawing
+    constexpr double kBelow = 5;  // millimetres beyond the drawing
     GroundBefore ground;
     ground.shapes.layer = "Ground";
     if (drawing.beyond.empty()) return ground;
@@ -182,9 +249,27 @@ GroundBefore drawGroundBefore(const drawing::SectionDrawing& drawing, const volu
     const auto [low, high] = drawnBox(drawing);
     const Vec3d world = volume.grid.origin() + volume.grid.axes()[2] * height;
     const double v = drawing.axes.planeFromWorld(world).v * millimetres;
-    addGround({{low.u * millimetres - kOver, v}, {high.u * millimetres + kOver, v}}, ground.shapes);
+    addGround({{low.u * millimetres - kGroundOver, v}, {high.u * millimetres + kGroundOver, v}}, ground.shapes);
     ground.isAssumed = isAssumed;
     return ground;
+}
+
+void hideBelowGround(drawing::SectionDrawing& elevation, const volume::SemanticVolume& volume,
+                     std::span<const drawing::BuildingLevel> levels, std::span<const std::uint8_t> isAround) {
+    if (elevation.beyond.empty()) return;
+    const Vec3d world = volume.grid.origin() + volume.grid.axes()[2] * groundHeight(volume, levels).first;
+    const GroundProfile ground(terrainBefore(elevation, volume, isAround, 0), elevation.axes.planeFromWorld(world).v);
+    std::vector<drawing::BeyondLine> lines;
+    for (const drawing::BeyondLine& line : elevation.beyond) {
+        if (line.kind == drawing::BeyondKind::Visible)
+            addPieces(line, ground, isAround[line.label] != 0, lines);
+        else
+            lines.push_back(line);
+    }
+    std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.kind, a.label) < std::tie(b.kind, b.label);
+    });
+    elevation.beyond = std::move(lines);
 }
 
 }  // namespace svt::writers

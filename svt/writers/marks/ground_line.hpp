@@ -15,6 +15,9 @@ namespace svt::writers {
 [[nodiscard]] MarkShapes drawGround(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                     double millimetres);
 
+/// The assumed ground of an elevation reaches beyond the drawing by this length, millimetres.
+inline constexpr double kGroundOver = 6;
+
 /// The ground of an elevation, in front of the building.
 struct GroundBefore {
     MarkShapes shapes;
@@ -28,5 +31,12 @@ struct GroundBefore {
 [[nodiscard]] GroundBefore drawGroundBefore(const drawing::SectionDrawing& drawing,
                                             const volume::SemanticVolume& volume,
                                             std::span<const drawing::BuildingLevel> levels, double millimetres);
+
+/// Hides the parts of an elevation below its ground line. Below the terrain of the model, nothing is drawn. Below another
+/// ground line, lines of the building become hidden lines.
+/// \param isAround  by label, of labelsAroundBuilding()
+/// Cost: O(triangles + lines * segments of the ground).
+void hideBelowGround(drawing::SectionDrawing& elevation, const volume::SemanticVolume& volume,
+                     std::span<const drawing::BuildingLevel> levels, std::span<const std::uint8_t> isAround);
 
 }  // namespace svt::writers

@@ -3,6 +3,7 @@
 #include <svt/core/text.hpp>
 #include <svt/drawing/clip_segment.hpp>
 #include <svt/writers/canvas/sheet_canvas.hpp>
+#include <svt/writers/drawing/drawing_style.hpp>
 
 #include <fmt/format.h>
 
@@ -179,11 +180,60 @@ std::vector<MarkPath> partsWithin(const MarkPath& axis, const MarkBox& box) {
     return parts;
 }
 
-// The centre of a circle that touches the end of a path from outside.
-PlanePoint beyondEnd(PlanePoint end, PlanePoint before, double radius) {
-    const double size = std::hypot(end.u - before.u, end.v - before.v);
-    return {end.u + (end.u - before.u) / size * radius, end.v + (end.v - before.v) / size * radius};
-}
+constexpr double kGridRadius = 3.5, kGridText = 2.5;  // millimetres
+
+// The ends of the axes of a plan, and the circles there.
+class GridEnds {
+public:
+    GridEnds(const MarkBox& drawing, const MarkBox& dimensions) : drawing_(drawing), dimensions_(dimensions) {}
+
+    // Moves an end of an axis to where its circle has a place: outside of the dimensions if it is outside of the drawing,
+    // and beside the circles before it. Returns the centre of the circle; nothing if the name stands there already, as
+    // where each storey has the same grid.
+    std::optional<PlanePoint> extend(MarkPath& path, bool isFront, const std::string& name) {
+        constexpr int kMost = 3;  // circles one behind the other
+        PlanePoint& end = isFront ? path.front() : path.back();
+        const PlanePoint before = isFront ? path[1] : path[path.size() - 2];
+        const double size = std::hypot(end.u - before.u, end.v - before.v);
+        const PlanePoint along{(end.u - before.u) / size, (end.v - before.v) / size};
+        const auto centre = [&] { return PlanePoint{end.u + along.u * kGridRadius, end.v + along.v * kGridRadius}; };
+        if (reachesBeyond(centre(), drawing_)) {
+            const double way = wayOut(end, along);
+            end = {end.u + along.u * way, end.v + along.v * way};
+        }
+        for (int n = 0; n < kMost && takenBy(centre()) != nullptr; ++n) {
+            if (*takenBy(centre()) == name) return std::nullopt;
+            end = {end.u + along.u * 2 * kGridRadius, end.v + along.v * 2 * kGridRadius};
+        }
+        circles_.emplace_back(centre(), name);
+        return centre();
+    }
+
+private:
+    [[nodiscard]] static bool reachesBeyond(PlanePoint at, const MarkBox& box) noexcept {
+        return at.u - kGridRadius < box.low.u || at.u + kGridRadius > box.high.u || at.v - kGridRadius < box.low.v ||
+               at.v + kGridRadius > box.high.v;
+    }
+    // The way from a point to the edge of the dimensions; 0 beyond them.
+    [[nodiscard]] double wayOut(PlanePoint from, PlanePoint along) const noexcept {
+        constexpr double kLeast = 1e-9;
+        double way = kInfinity;
+        if (std::abs(along.u) > kLeast)
+            way = std::min(way, ((along.u > 0 ? dimensions_.high.u : dimensions_.low.u) - from.u) / along.u);
+        if (std::abs(along.v) > kLeast)
+            way = std::min(way, ((along.v > 0 ? dimensions_.high.v : dimensions_.low.v) - from.v) / along.v);
+        return way < kInfinity ? std::max(0.0, way) : 0;
+    }
+    // The name of the circle that a circle would overlap.
+    [[nodiscard]] const std::string* takenBy(PlanePoint at) const noexcept {
+        for (const auto& [other, name] : circles_)
+            if (std::hypot(other.u - at.u, other.v - at.v) < 2 * kGridRadius - 1e-6) return &name;
+        return nullptr;
+    }
+
+    MarkBox drawing_, dimensions_;
+    std::vector<std::pair<PlanePoint, std::string>> circles_;
+};
 
 }  // namespace
 
@@ -215,13 +265,18 @@ MarkShapes drawTravel(const drawing::SectionDrawing& drawing, const volume::Sema
     return shapes;
 }
 
+bool hasGrids(const volume::LabelTable& labels) noexcept {
+    return std::any_of(labels.labels.begin(), labels.labels.end(),
+                       [](const volume::Label& label) { return label.className == "Grid"; });
+}
+
 MarkShapes drawGrids(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume, double millimetres,
-                     const MarkBox& allowed, FreeSpace& space) {
-    constexpr double kRadius = 3.5, kText = 2.5;  // millimetres
+                     const MarkBox& dimensions, FreeSpace& space) {
     MarkShapes shapes;
     shapes.layer = "Grids";
-    const MarkBox inner{{allowed.low.u + 2 * kRadius, allowed.low.v + 2 * kRadius},
-                        {allowed.high.u - 2 * kRadius, allowed.high.v - 2 * kRadius}};
+    const auto [low, high] = drawnBox(drawing);
+    GridEnds ends({{low.u * millimetres, low.v * millimetres}, {high.u * millimetres, high.v * millimetres}},
+                  dimensions);
     for (const volume::Label& label : volume.labels.labels) {
         if (label.className != "Grid") continue;
         for (const Attribute& attribute : label.attributes) {
@@ -231,19 +286,22 @@ MarkShapes drawGrids(const drawing::SectionDrawing& drawing, const volume::Seman
                 const PlanePoint at{p.u * millimetres, p.v * millimetres};
                 if (axis.empty() || !(axis.back() == at)) axis.push_back(at);
             }
-            for (const MarkPath& part : partsWithin(axis, inner)) {
-                shapes.axes.push_back(part);
-                const std::string name = shortened(attribute.name.substr(5), kText, 2 * kRadius - 1);
+            const std::string name =
+                axis.empty() ? std::string() : shortened(attribute.name.substr(5), kGridText, 2 * kGridRadius - 1);
+            for (MarkPath part : partsWithin(axis, dimensions)) {
                 // A whole circle has its name once.
-                std::vector<PlanePoint> places{part.front()};
-                if (!(part.front() == part.back()))
-                    places = {beyondEnd(part.front(), part[1], kRadius),
-                              beyondEnd(part.back(), part[part.size() - 2], kRadius)};
+                std::vector<PlanePoint> places;
+                if (part.front() == part.back())
+                    places.push_back(part.front());
+                else
+                    for (const bool isFront : {true, false})
+                        if (const auto place = ends.extend(part, isFront, name)) places.push_back(*place);
+                shapes.axes.push_back(std::move(part));
                 for (const PlanePoint at : places) {
-                    shapes.masks.push_back(circleAt(at, kRadius));
-                    shapes.medium.push_back(circleAt(at, kRadius));
-                    shapes.texts.push_back({{at.u, at.v - 0.36 * kText}, kText, name, false});
-                    space.take({{at.u - kRadius, at.v - kRadius}, {at.u + kRadius, at.v + kRadius}});
+                    shapes.masks.push_back(circleAt(at, kGridRadius));
+                    shapes.medium.push_back(circleAt(at, kGridRadius));
+                    shapes.texts.push_back({{at.u, at.v - 0.36 * kGridText}, kGridText, name, false});
+                    space.take({{at.u - kGridRadius, at.v - kGridRadius}, {at.u + kGridRadius, at.v + kGridRadius}});
                 }
             }
         }

@@ -22,10 +22,16 @@ struct PlanHeights {
                                     std::span<const drawing::StairFlight> flights, const PlanHeights& heights,
                                     double millimetres, std::string_view risers, bool hasCommas, FreeSpace& space);
 
-/// The axes of grids, straight or curved, with their names in circles at both ends. An axis that is longer than the
-/// drawing ends beside it; each of its parts within the drawing has its name. A whole circle has its name once.
-/// \param allowed  limits of the circles
+/// Space around the dimensions of a plan for the names of axes, millimetres.
+inline constexpr double kGridMargin = 8;
+[[nodiscard]] bool hasGrids(const volume::LabelTable& labels) noexcept;
+
+/// The axes of grids, straight or curved, with their names in circles at both ends. An axis that ends beside the drawing
+/// goes on across the dimensions, so that its name stands outside of them; one that is longer ends there. Each of its
+/// parts within these limits has its name, and a whole circle has its name once. Circles that would overlap stand one
+/// behind the other.
+/// \param dimensions  the drawing with its dimensions: circles outside of the drawing stand outside of this box too
 [[nodiscard]] MarkShapes drawGrids(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                                   double millimetres, const MarkBox& allowed, FreeSpace& space);
+                                   double millimetres, const MarkBox& dimensions, FreeSpace& space);
 
 }  // namespace svt::writers

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace svt::writers {
 namespace {
@@ -18,27 +19,29 @@ constexpr double kStampSizes[] = {2.5, 2, 1.8};  // millimetres
 constexpr double kAround = 0.8;                  // millimetres between a text and lines
 constexpr int kMostLines = 6;                    // lines of furniture that a stamp may interrupt
 
-// The largest polygon of a room, millimetres on paper.
+// The largest polygon of a room, or one of a cut part, millimetres on paper.
 class RoomOutline {
 public:
-    RoomOutline(const drawing::SectionComponent& component, double millimetres) {
-        const auto& largest = *std::max_element(component.polygons.begin(), component.polygons.end(),
-                                                [](const auto& a, const auto& b) { return a.area < b.area; });
+    RoomOutline(const drawing::SectionComponent& component, double millimetres)
+        : RoomOutline(largestOf(component), millimetres) {
+        const drawing::TextPlace place = drawing::findTextPlace(largestOf(component));
+        center = {place.center.u * millimetres, place.center.v * millimetres};
+    }
+    // Without a centre.
+    RoomOutline(const drawing::SectionPolygon& polygon, double millimetres) {
         const auto add = [&](const drawing::Ring& ring) {
             for (std::size_t n = 0; n < ring.size(); ++n) {
                 const PlanePoint a = ring[n], b = ring[(n + 1) % ring.size()];
                 sides_.push_back({{a.u * millimetres, a.v * millimetres}, {b.u * millimetres, b.v * millimetres}});
             }
         };
-        add(largest.outer);
-        for (const drawing::Ring& hole : largest.holes) add(hole);
+        add(polygon.outer);
+        for (const drawing::Ring& hole : polygon.holes) add(hole);
         box = {sides_.front().first, sides_.front().first};
         for (const auto& [a, b] : sides_) {
             box.low = {std::min(box.low.u, a.u), std::min(box.low.v, a.v)};
             box.high = {std::max(box.high.u, a.u), std::max(box.high.v, a.v)};
         }
-        const drawing::TextPlace place = drawing::findTextPlace(largest);
-        center = {place.center.u * millimetres, place.center.v * millimetres};
     }
 
     /// A place for the middle of a stamp.
@@ -85,9 +88,14 @@ public:
     }
 
     MarkBox box;
-    PlanePoint center;
+    PlanePoint center{};
 
 private:
+    static const drawing::SectionPolygon& largestOf(const drawing::SectionComponent& component) {
+        return *std::max_element(component.polygons.begin(), component.polygons.end(),
+                                 [](const auto& a, const auto& b) { return a.area < b.area; });
+    }
+
     std::vector<std::pair<PlanePoint, PlanePoint>> sides_;
     std::vector<Place> places_;
 };
@@ -101,6 +109,53 @@ MarkPath ringOf(const MarkBox& box) {
     return {box.low, {box.high.u, box.low.v}, box.high, {box.low.u, box.high.v}, box.low};
 }
 
+// Finds the rooms at a point: a grid of cells lists the rooms whose boxes meet them.
+class RoomIndex {
+public:
+    explicit RoomIndex(const std::vector<RoomOutline>& rooms) : rooms_(rooms) {
+        if (rooms.empty()) return;
+        MarkBox all = rooms.front().box;
+        for (const RoomOutline& room : rooms) {
+            all.low = {std::min(all.low.u, room.box.low.u), std::min(all.low.v, room.box.low.v)};
+            all.high = {std::max(all.high.u, room.box.high.u), std::max(all.high.v, room.box.high.v)};
+        }
+        low_ = all.low;
+        cell_ = std::max({kCell, (all.high.u - all.low.u) / kMostCells, (all.high.v - all.low.v) / kMostCells});
+        columns_ = 1 + static_cast<std::size_t>((all.high.u - low_.u) / cell_);
+        rows_ = 1 + static_cast<std::size_t>((all.high.v - low_.v) / cell_);
+        cells_.resize(columns_ * rows_);
+        for (std::size_t n = 0; n < rooms.size(); ++n) {
+            const MarkBox& box = rooms[n].box;
+            for (std::size_t row = rowOf(box.low.v); row <= rowOf(box.high.v); ++row)
+                for (std::size_t column = columnOf(box.low.u); column <= columnOf(box.high.u); ++column)
+                    cells_[row * columns_ + column].push_back(n);
+        }
+    }
+
+    /// Whether a point lies in a room other than `own`.
+    [[nodiscard]] bool isInOther(PlanePoint p, std::size_t own) const noexcept {
+        if (cells_.empty() || p.u < low_.u || p.v < low_.v) return false;
+        const std::size_t column = columnOf(p.u), row = rowOf(p.v);
+        if (column >= columns_ || row >= rows_) return false;
+        const std::vector<std::size_t>& rooms = cells_[row * columns_ + column];
+        return std::any_of(rooms.begin(), rooms.end(),
+                           [&](std::size_t n) { return n != own && rooms_[n].contains(p); });
+    }
+
+private:
+    static constexpr double kCell = 6, kMostCells = 500;  // millimetres; per side
+    [[nodiscard]] std::size_t columnOf(double u) const noexcept {
+        return static_cast<std::size_t>((u - low_.u) / cell_);
+    }
+    [[nodiscard]] std::size_t rowOf(double v) const noexcept { return static_cast<std::size_t>((v - low_.v) / cell_); }
+
+    const std::vector<RoomOutline>& rooms_;
+    PlanePoint low_{};
+    double cell_ = kCell;
+    std::size_t columns_ = 0, rows_ = 0;
+    std::vector<std::vector<std::size_t>> cells_;
+};
+
 class StampPlacer {
 public:
     StampPlacer(double millimetres, const MarkBox& allowed, FreeSpace& space, MarkShapes& shapes)
@@ -112,6 +167,12 @@ public:
     }
 
     void addRoom(const drawing::SectionComponent& component) { rooms_.emplace_back(component, millimetres_); }
+
+    // Stamps outside of rooms do not stand on cut parts.
+    void addCutPart(const drawing::SectionComponent& component) {
+        for (const drawing::SectionPolygon& polygon : component.polygons)
+            if (polygon.outer.size() > 2) cutParts_.emplace_back(polygon, millimetres_);
+    }
 
     // In the room. A place that covers lines is only taken if `mayCover`.
     bool placeInside(std::size_t room, const std::vector<std::string>& lines, bool mayCover) {
@@ -130,21 +191,24 @@ public:
     }
 
     // Outside, with a leader from a dot in the room: in its middle, or where texts do not stand in the leader's way.
-    bool placeOutside(std::size_t room, const std::vector<std::string>& lines) {
+    // \param mayCross  whether the leader may cross other rooms, and the stamp stand in them
+    bool placeOutside(std::size_t room, const std::vector<std::string>& lines, bool mayCross) {
+        if (!index_) index_.emplace(rooms_);
         const RoomOutline& outline = rooms_[room];
         const double u = 0.3 * (outline.box.high.u - outline.box.low.u),
                      v = 0.3 * (outline.box.high.v - outline.box.low.v);
         const PlanePoint middle = outline.center;
         for (const PlanePoint from : {middle, PlanePoint{middle.u, middle.v - v}, PlanePoint{middle.u, middle.v + v},
                                       PlanePoint{middle.u - u, middle.v}, PlanePoint{middle.u + u, middle.v}})
-            if (outline.contains(from) && placeFrom(from, room, lines)) return true;
+            if (outline.contains(from) && placeFrom(from, room, lines, mayCross)) return true;
         return false;
     }
 
 private:
-    bool placeFrom(PlanePoint from, std::size_t room, const std::vector<std::string>& lines) {
+    bool placeFrom(PlanePoint from, std::size_t room, const std::vector<std::string>& lines, bool mayCross) {
         constexpr double kNearest = 6, kFarthest = 120, kStep = 2;  // millimetres
         constexpr double kOtherRoom = 60;  // millimetres that a place in another room counts more
+        constexpr double kCrossed = 3;     // millimetres that a millimetre across another room counts more
         const double size = kStampSizes[1];
         const auto extent = sizeOfLines(lines, size);
         std::optional<PlanePoint> best;
@@ -156,8 +220,12 @@ private:
                 const MarkBox box = boxAt(at, extent);
                 if (away >= least || !isAllowed(box) || meets(from, from, box)) continue;
                 if (!space_.isClear(box) || space_.crossesTaken(from, endOf(from, box))) continue;
-                const double cost = away + (isInOtherRoom(at, room) ? kOtherRoom : 0);
-                if (cost >= least) continue;
+                const bool isInside = meetsOtherRoom(box, room);
+                double cost = away + (isInside ? kOtherRoom : 0);
+                if (cost >= least || (isInside && !mayCross) || isOnCutPart(at)) continue;
+                const double most = mayCross ? (least - cost) / kCrossed : 0;
+                cost += kCrossed * lengthInOtherRooms(from, endOf(from, box), room, most);
+                if (cost >= least || (!mayCross && cost > away)) continue;
                 least = cost;
                 best = at;
             }
@@ -175,10 +243,28 @@ private:
         return box.low.u >= allowed_.low.u && box.low.v >= allowed_.low.v && box.high.u <= allowed_.high.u &&
                box.high.v <= allowed_.high.v;
     }
-    [[nodiscard]] bool isInOtherRoom(PlanePoint p, std::size_t own) const noexcept {
-        for (std::size_t n = 0; n < rooms_.size(); ++n)
-            if (n != own && rooms_[n].contains(p)) return true;
+    [[nodiscard]] bool meetsOtherRoom(const MarkBox& box, std::size_t own) const noexcept {
+        for (const double u : {0.0, 0.5, 1.0})
+            for (const double v : {0.0, 0.5, 1.0})
+                if (index_->isInOther(
+                        {box.low.u + u * (box.high.u - box.low.u), box.low.v + v * (box.high.v - box.low.v)}, own))
+                    return true;
         return false;
+    }
+    [[nodiscard]] bool isOnCutPart(PlanePoint p) const noexcept {
+        return std::any_of(cutParts_.begin(), cutParts_.end(),
+                           [&](const RoomOutline& part) { return part.contains(p); });
+    }
+    // The length of a leader within other rooms, in steps of a millimetre; more than `most` need not be exact.
+    [[nodiscard]] double lengthInOtherRooms(PlanePoint from, PlanePoint to, std::size_t own,
+                                            double most) const noexcept {
+        const int steps = 1 + static_cast<int>(std::hypot(to.u - from.u, to.v - from.v));
+        int inside = 0;
+        for (int n = 0; n <= steps && inside <= most; ++n) {
+            const double t = static_cast<double>(n) / steps;
+            if (index_->isInOther({from.u + (to.u - from.u) * t, from.v + (to.v - from.v) * t}, own)) ++inside;
+        }
+        return inside;
     }
     // The middle of the side of a rectangle that faces a point.
     [[nodiscard]] static PlanePoint endOf(PlanePoint from, const MarkBox& box) noexcept {
@@ -240,7 +326,8 @@ private:
     const MarkBox& allowed_;
     FreeSpace& space_;
     MarkShapes& shapes_;
-    std::vector<RoomOutline> rooms_;
+    std::vector<RoomOutline> rooms_, cutParts_;
+    std::optional<RoomIndex> index_;  // of all rooms, made for the first leader
 };
 
 // Two lines: the first, and the others joined.
@@ -282,7 +369,13 @@ PlacedStamps placeStamps(const drawing::SectionDrawing& drawing, std::span<const
     std::unordered_map<std::uint32_t, const drawing::SectionComponent*> componentOf;
     for (const drawing::SectionComponent& component : drawing.components)
         componentOf.emplace(component.label, &component);
-    for (const RoomStamp& stamp : stamps) placer.addRoom(*componentOf.find(stamp.label)->second);
+    std::unordered_set<std::uint32_t> spaces;
+    for (const RoomStamp& stamp : stamps) {
+        placer.addRoom(*componentOf.find(stamp.label)->second);
+        spaces.insert(stamp.label);
+    }
+    for (const drawing::SectionComponent& component : drawing.components)
+        if (!spaces.contains(component.label)) placer.addCutPart(component);
     // Stamps in their own rooms come first, so that others do not take their places.
     std::vector<std::size_t> left;
     for (std::size_t n = 0; n < stamps.size(); ++n) left.push_back(n);
@@ -293,10 +386,19 @@ PlacedStamps placeStamps(const drawing::SectionDrawing& drawing, std::span<const
                                [&](const auto& lines) { return placer.placeInside(n, lines, mayCover); });
         });
     for (const std::size_t n : left) {
-        if (placer.placeOutside(n, stamps[n].lines)) continue;
+        if (placer.placeOutside(n, stamps[n].lines, false)) continue;
         const std::vector<std::string> first{stamps[n].lines.front()};
-        const bool isPlaced = placer.placeInside(n, first, true) || placer.placeOutside(n, first);
-        (isPlaced ? placed.shortened : placed.withoutPlace).push_back(n);
+        const auto firstForms = formsOf(first);
+        const bool isInside = std::any_of(firstForms.begin(), firstForms.end(),
+                                          [&](const auto& lines) { return placer.placeInside(n, lines, true); });
+        if (!isInside && !placer.placeOutside(n, first, false)) {
+            if (placer.placeOutside(n, stamps[n].lines, true)) continue;
+            if (!placer.placeOutside(n, first, true)) {
+                placed.withoutPlace.push_back(n);
+                continue;
+            }
+        }
+        placed.shortened.push_back(n);
     }
     return placed;
 }

@@ -27,8 +27,10 @@ struct PlacedStamps {
 ///
 ///     1. in its room, clear of lines, in 2.5, 2 and 1.8 mm, then in two lines; lines above the cut do not count
 ///     2. in its room, over up to six lines of furniture, which the stamp interrupts
-///     3. outside of its room, with a leader
-///     4. only the first line, in the room or outside
+///     3. outside of all rooms, with a leader that crosses no other room
+///     4. only the first line: in the room, or outside as before
+///     5. outside, with a leader that crosses other rooms by the shortest way
+///     6. only the first line, likewise
 /// \param millimetres  on paper per metre
 /// \param allowed      limits of places outside of rooms
 [[nodiscard]] PlacedStamps placeStamps(const drawing::SectionDrawing& drawing, std::span<const RoomStamp> stamps,

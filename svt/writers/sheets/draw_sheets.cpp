@@ -3,6 +3,7 @@
 #include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/opening_schedule.hpp>
 #include <svt/drawing/side_by_side.hpp>
+#include <svt/writers/marks/plan_lines.hpp>
 
 #include <algorithm>
 #include <functional>
@@ -63,6 +64,7 @@ Result<SheetContent> drawSheets(drawing::SheetSet& set, const volume::SemanticVo
     SVT_TRY(chosen, chooseViews(set, volume, tables, threads));
     SheetContent content;
     content.levels = std::move(chosen->levels);
+    content.hasGrids = hasGrids(volume.labels);
     std::vector<int> groups;  // by view
     for (const drawing::SetSheet& sheet : set.sheets) {
         groups.insert(groups.end(), sheet.views.size(), static_cast<int>(content.groups.size()));
@@ -96,7 +98,7 @@ Result<SheetContent> drawSheets(drawing::SheetSet& set, const volume::SemanticVo
     SVT_TRY(areas, drawing::measureFloorAreas(volume, content.levels, threads, &tables));
     drawing::reportAreas(*areas, content.levels, volume, content.findings);
     const SheetLanguage language = sheetOptionsOf(set).language;
-    content.tables = makeAreaTables(*areas, content.levels, language);
+    content.tables = makeAreaTables(*areas, content.levels, language, &volume.labels);
     for (SheetTable& table : makeOpeningTables(*content.openings, content.levels, language))
         content.tables.push_back(std::move(table));
     content.areas = std::move(*areas);

@@ -112,14 +112,23 @@ std::vector<std::vector<std::string>> withoutStampOf(const std::vector<RoomStamp
     return lines;
 }
 
-void addPlanMarks(const ViewContext& context, const MarkBox& allowed, FreeSpace& space, ViewMarks& marks) {
+// The drawing of a plan with its dimensions, without the space for the names of axes.
+MarkBox dimensionsBox(const PlacedView& placed) {
+    const ViewMargins& margins = placed.margins;
+    const PaperPoint corner = placed.place.corner;
+    return marksBox({corner.x - margins.left + kGridMargin, corner.y - placed.height - margins.above + kGridMargin,
+                     corner.x + placed.width + margins.right - kGridMargin, corner.y + margins.below - kGridMargin},
+                    placed.place);
+}
+
+void addPlanMarks(const ViewContext& context, FreeSpace& space, ViewMarks& marks) {
     const drawing::SectionDrawing& drawing = context.view.drawing;
     const double mm = context.placed.place.millimetres;
     const auto add = [&](MarkShapes shapes) {
         const bool isEmpty = shapes.thin.empty() && shapes.texts.empty() && shapes.masks.empty();
         if (!isEmpty) marks.layers.push_back(std::move(shapes));
     };
-    add(drawGrids(drawing, context.volume, mm, allowed, space));
+    if (context.content.hasGrids) add(drawGrids(drawing, context.volume, mm, dimensionsBox(context.placed), space));
     if (context.content.openings) add(drawPanes(drawing, context.volume, *context.content.openings, mm));
     std::vector<drawing::StairFlight> own;
     if (!context.content.stairs) own = drawing::findStairFlights(context.volume);
@@ -141,7 +150,7 @@ ViewMarks marksOf(const ViewContext& context) {
     if (context.view.view.kind == ViewKind::Plan) {
         const MarkBox own = marksBox(outerOf(context.placed), context.placed.place);
         takeSectionMarks(context, own, space);
-        addPlanMarks(context, own, space, marks);
+        addPlanMarks(context, space, marks);
     }
     if (context.view.view.kind == ViewKind::Section)
         if (MarkShapes ground = drawGround(drawing, context.volume, mm); !ground.bold.empty())

@@ -1,13 +1,17 @@
 /// Sheets as an office expects them: every room has a stamp, the title block its fields, doors their marks, the paper
 /// follows from the scale.
 
+#include <svt/drawing/building_crop.hpp>
+#include <svt/drawing/opening_schedule.hpp>
 #include <svt/volume/sample_volume_test.hpp>
 #include <svt/writers/canvas/sheet_canvas.hpp>
 #include <svt/writers/draw_sheets.hpp>
 #include <svt/writers/drawing/drawing_files_test.hpp>
 #include <svt/writers/marks/free_space.hpp>
 #include <svt/writers/marks/ground_line.hpp>
+#include <svt/writers/marks/plan_lines.hpp>
 #include <svt/writers/marks/room_stamps.hpp>
+#include <svt/writers/marks/terrain_lines.hpp>
 #include <svt/writers/office_sheets.hpp>
 #include <svt/writers/sheets/stamp_texts.hpp>
 #include <svt/writers/sheets/title_block.hpp>
@@ -241,6 +245,79 @@ TEST(RoomStamps, BreakNamesToStayInTheirRooms) {
                 1e-9);
 }
 
+// A small room between others: its number stands in it, and the rest in the list. Before, a leader crossed other rooms.
+TEST(RoomStamps, LeadersDoNotCrossOtherRooms) {
+    House house;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            const double low[] = {0, 4, 5}, high[] = {3.8, 4.8, 9};
+            house.add(fmt::format("room{}{}", i, j), "BuildingRoom", {low[i], low[j], 0}, {high[i], high[j], 3}).name =
+                i == 1 && j == 1 ? "K1" : fmt::format("Office {}{}", i, j);
+        }
+    const auto drawn = *drawing::drawSection(house.volume, {{0, 0, 1}, {0, 0, 1.1}}, {});
+    std::vector<RoomStamp> stamps;
+    for (const auto& component : drawn.components)
+        stamps.push_back({component.label, {house.volume.labels.labels[component.label].name, "123.45 m\u00B2, oak"}});
+    ASSERT_EQ(stamps.size(), 9u);
+    FreeSpace space = freeSpaceOf(drawn, house.volume, 10);
+    const PlacedStamps placed = placeStamps(drawn, stamps, 10, {{-60, -60}, {160, 150}}, space);
+    EXPECT_TRUE(placed.withoutPlace.empty());
+    EXPECT_EQ(placed.shortened, (std::vector<std::size_t>{4}));
+    const auto text = std::find_if(placed.shapes.texts.begin(), placed.shapes.texts.end(),
+                                   [](const MarkText& of) { return of.text == "K1"; });
+    ASSERT_NE(text, placed.shapes.texts.end());
+    const PlanePoint low = drawn.axes.planeFromWorld({4, 4, 0}), high = drawn.axes.planeFromWorld({4.8, 4.8, 0});
+    const auto isInRoom = [&](PlanePoint p) {
+        return p.u > 10 * low.u && p.u < 10 * high.u && p.v > 10 * low.v && p.v < 10 * high.v;
+    };
+    EXPECT_TRUE(isInRoom(text->at));
+    for (const MarkPath& leader : placed.shapes.thin) EXPECT_TRUE(std::none_of(leader.begin(), leader.end(), isInRoom));
+}
+
+// Ids say nothing to a reader, and a number that repeats the name has it once.
+TEST(RoomStamps, RoomsWithoutANameAreCalledRooms) {
+    House house;
+    house.add("GML_7b1a5a6f", "BuildingRoom", {0, 0, 0}, {6, 5, 2.5});
+    volume::Label& room = house.add("bed", "BuildingRoom", {7, 0, 0}, {12, 5, 2.5});
+    room.name = "Bedroom";
+    room.attributes = {{"number", std::string("2 - Bedroom"), ""}};
+    const auto sheets = house.sheets({.scale = 100, .paper = "A3"});
+    EXPECT_EQ(countTexts(sheets, "contains(., 'GML_7b1a5a6f')"), 0u);
+    EXPECT_EQ(countTexts({sheets.front()}, ".='Room'"), 1u);
+    EXPECT_EQ(countTexts({sheets.front()}, ".='2 - Bedroom'"), 1u);
+    EXPECT_EQ(countTexts({sheets.back()}, ".='2'"), 1u) << "the column of numbers";
+    EXPECT_EQ(countTexts({sheets.back()}, ".='2 - Bedroom'"), 0u);
+}
+
+// Before, 10 came before 9.
+TEST(RoomTable, IsInTheOrderOfNumbers) {
+    drawing::FloorAreas areas;
+    for (const char* number : {"B10", "10", "9", "B9", "009a", "1.10", "1.9", ""}) {
+        drawing::RoomArea room;
+        room.number = number;
+        room.area = 1;
+        areas.rooms.push_back(room);
+    }
+    areas.levels.resize(1);
+    const std::vector<SheetTable> tables = makeAreaTables(areas, {drawing::BuildingLevel{}}, SheetLanguage::English);
+    std::vector<std::string> numbers;
+    for (const auto& row : tables.front().rows) numbers.push_back(row[0]);
+    EXPECT_EQ(numbers, (std::vector<std::string>{"", "1.9", "1.10", "9", "009a", "10", "B9", "B10", ""}));
+}
+
+// 0.3 m above a floor: before, the mark of the roof was left out at 1:100.
+TEST(LevelMarks, TheHighestHasAPlaceNearAFloor) {
+    House house;
+    house.addRow(3, 3);
+    volume::test::addGroup(house.volume, "upper", "Storey", 1).name = "OG";
+    house.storey = static_cast<std::uint32_t>(house.volume.labels.labels.size() - 1);
+    house.volume.labels.labels[house.storey].attributes = {{"elevation", 3.0, "m"}};
+    house.add("roof", "BuildingConstructiveElement", {0, 0, 3}, {9.8, 1.9, 3.3});
+    drawing::SheetSet set;
+    set.tables = false;
+    EXPECT_GE(countTexts(house.sheets({.scale = 100, .paper = "A2"}, set), ".='+3.30'"), 6u);
+}
+
 TEST(RoomStamps, HaveNumberHeightAndFloorFinish) {
     House house;
     volume::Label& room = house.add("room", "BuildingRoom", {0, 0, 0}, {6, 5, 2.5});
@@ -250,6 +327,8 @@ TEST(RoomStamps, HaveNumberHeightAndFloorFinish) {
     for (const char* text : {"0.04 Kitchen", "30.00 m\u00B2", "h 2.50 m", "Oak"})
         EXPECT_EQ(countTexts({sheets.front()}, fmt::format(".='{}'", text)), 1u) << text;
     EXPECT_EQ(floorFinish(house.volume.labels, 3), "Oak");
+    house.volume.labels.labels[3].attributes.back().value = std::string("FloorCovering");
+    EXPECT_EQ(floorFinish(house.volume.labels, 3), "") << "a template";
     house.volume.labels.labels[3].attributes.pop_back();
     EXPECT_EQ(floorFinish(house.volume.labels, 3), "");
 }
@@ -301,6 +380,15 @@ TEST(TitleBlock, PlaceholdersOfTemplatesAreNoFacts) {
     house.volume.source = "hall.ifc";
     EXPECT_EQ(modelFacts(house.volume).project, "hall.ifc");
     EXPECT_EQ(modelFacts(house.volume).address, "Lake Road 3");
+    labels[0].attributes = {{"projectName", std::string("Nombre de proyecto"), ""}};
+    labels[1].attributes = {{"address/CountryName", std::string("Germany"), ""},
+                            {"address/LocalityName", std::string("Town"), ""},
+                            {"address/PostalCodeNumber", std::string("8001"), ""},
+                            {"address/ThoroughfareNumber", std::string("3"), ""},
+                            {"address/ThoroughfareName", std::string("Lake Road"), ""},
+                            {"address/pos", std::string("1 2 3"), ""}};
+    EXPECT_EQ(modelFacts(house.volume).project, "hall.ifc");
+    EXPECT_EQ(modelFacts(house.volume).address, "Lake Road 3, 8001 Town, Germany");
     EXPECT_EQ(emptyBlockOptions({.number = "1",
                                  .creator = "",
                                  .approver = "x",
@@ -369,6 +457,47 @@ TEST(OpeningMarks, OfThePlanAreThoseOfTheSchedule) {
     EXPECT_EQ(countTexts({sheets.back()}, ".='Doors' or .='Windows'"), 2u);
 }
 
+// The jambs of a deep wall have more area than the pane: before, they decided the width, and sills the height.
+TEST(OpeningSchedule, DeepOpeningsAreAsWideAsTheyAre) {
+    House house;
+    house.addRow(4, 3);
+    house.add("tall", "Window", {2, 0, 0.9}, {2.02, 0.42, 2.9});
+    auto label = static_cast<std::uint32_t>(house.volume.labels.labels.size() - 1);
+    volume::test::addBoxMesh(house.volume, label, {2.58, 0, 0.9}, {2.6, 0.42, 2.9});
+    volume::test::addBoxMesh(house.volume, label, {2.02, 0.2, 0.9}, {2.58, 0.21, 2.9});
+    house.add("low", "Window", {4, 0, 2}, {4.8, 0.42, 2.02});
+    label = static_cast<std::uint32_t>(house.volume.labels.labels.size() - 1);
+    volume::test::addBoxMesh(house.volume, label, {4, 0, 2.58}, {4.8, 0.42, 2.6});
+    volume::test::addBoxMesh(house.volume, label, {4, 0.2, 2.02}, {4.8, 0.21, 2.58});
+    house.add("hatch", "Window", {6, 0.5, 2.8}, {7, 1.2, 3});
+    const auto schedule = drawing::scheduleOpenings(house.volume, {});
+    const auto sizeOf = [&](const std::string& id) {
+        for (const drawing::OpeningRow& row : schedule.rows)
+            for (const std::uint32_t of : row.labels)
+                if (house.volume.labels.labels[of].id == id) return std::pair(*row.measuredWidth, *row.measuredHeight);
+        return std::pair(0.0, 0.0);
+    };
+    EXPECT_EQ(sizeOf("tall"), std::pair(0.6, 2.0));
+    EXPECT_EQ(sizeOf("low"), std::pair(0.8, 0.6));
+    EXPECT_EQ(sizeOf("hatch"), std::pair(1.0, 0.7));
+}
+
+// Elements that state their type in IFC are doors and windows, and both sides of a wall show one window.
+TEST(OpeningSchedule, CountsElementsByTheirTypeAndSurfacesOnce) {
+    House house;
+    house.addRow(4, 3);
+    house.add("door", "BuildingConstructiveElement", {1, 0, 0}, {2, 0.2, 2}).attributes = {
+        {"ifcType", std::string("IfcDoor"), ""}};
+    for (const double y : {1.7, 1.9})
+        house.add(fmt::format("window{}", y), "Window", {2, y, 0.9}, {3.2, y, 2.1}).filling = volume::Filling::Surface;
+    const auto schedule = drawing::scheduleOpenings(house.volume, {});
+    ASSERT_EQ(schedule.rows.size(), 2u);
+    EXPECT_EQ(schedule.rows[0].mark, "D1");
+    EXPECT_EQ(schedule.rows[0].labels.size(), 1u);
+    EXPECT_EQ(schedule.rows[1].mark, "W1");
+    EXPECT_EQ(schedule.rows[1].labels.size(), 1u);
+}
+
 // Some writers export windows without a shape and a size.
 TEST(OpeningMarks, OpeningsOfUnknownSizeAreCounted) {
     House house;
@@ -397,6 +526,29 @@ TEST(StairMarks, HaveTheNumberOfRisers) {
     const auto sheets = house.sheets({.scale = 50, .paper = "A2"});
     EXPECT_EQ(countTexts({sheets.front()}, ".='16 R 17.5/28'"), 2u);  // below and above
     EXPECT_EQ(SvgFile(sheets.front()).count("//g[@inkscape:label='Stairs']"), 2u);
+}
+
+// Before, circles stood between the chains of dimensions and covered their numbers.
+TEST(GridMarks, NamesStandOutsideOfTheDimensions) {
+    House house;
+    house.addRow(3, 3);  // 9.8 x 1.9 m
+    volume::Label& grid = volume::test::addGroup(house.volume, "grid", "Grid", 1);
+    grid.attributes = {{"axis A", std::string("-0.5 1 0, 10.5 1 0"), "m"},
+                       {"axis B", std::string("-0.5 1.1 0, 10.5 1.1 0"), "m"},
+                       {"axis 1", std::string("3 0.9 0, 6 0.9 0"), "m"}};
+    const auto drawn = *drawing::drawSection(house.volume, {{0, 0, 1}, {0, 0, 1.1}}, {});
+    FreeSpace space;
+    const MarkBox dimensions{{-30, -30}, {130, 50}};
+    const MarkShapes shapes = drawGrids(drawn, house.volume, 10, dimensions, space);
+    ASSERT_EQ(shapes.texts.size(), 6u);
+    EXPECT_NEAR(shapes.texts[0].at.u, -33.5, 1e-6);
+    EXPECT_NEAR(shapes.texts[1].at.u, 133.5, 1e-6);
+    EXPECT_NEAR(shapes.texts[2].at.u, -40.5, 1e-6) << "behind the circle of A";
+    // Each storey may have the same grid.
+    volume::test::addGroup(house.volume, "grid of OG", "Grid", 1).attributes = grid.attributes;
+    EXPECT_EQ(drawGrids(drawn, house.volume, 10, dimensions, space).texts.size(), 6u);
+    EXPECT_NEAR(shapes.texts[4].at.u, 10 * drawn.axes.planeFromWorld({3, 0, 0}).u - 3.5, 1e-6)
+        << "an axis that ends within the drawing";
 }
 
 TEST(GridMarks, AxesHaveTheirNamesAtBothEnds) {
@@ -467,6 +619,83 @@ TEST(GroundLine, IsBoldInSections) {
     ASSERT_TRUE(sheets);
     for (const std::string& sheet : *sheets) layers += SvgFile(sheet).count("//g[@inkscape:label='Ground']");
     EXPECT_EQ(layers, 6u);  // sections A and B, four elevations
+}
+
+// A foundation below an assumed ground is hidden; below the terrain of the model, nothing is drawn.
+TEST(GroundLine, WhatLiesBelowItIsHidden) {
+    House house;
+    house.addRow(3, 3);
+    house.add("footing", "BuildingConstructiveElement", {0, 0, -1}, {9.8, 1.9, 0});
+    for (const bool hasTerrain : {false, true}) {
+        const auto ground = static_cast<std::uint32_t>(house.volume.labels.labels.size());
+        if (hasTerrain) {
+            volume::test::addObject(house.volume, "ground", "TINRelief").filling = volume::Filling::Surface;
+            volume::test::addQuad(house.volume, ground,
+                                  {{{-5, -4, -0.4}, {15, -4, -0.4}, {15, 5, -0.4}, {-5, 5, -0.4}}});
+            volume::test::addQuad(house.volume, ground,
+                                  {{{-5, -4, -0.9}, {15, -4, -0.9}, {15, 5, -0.9}, {-5, 5, -0.9}}});
+        }
+        drawing::SectionOptions options;
+        options.beyond.visible = true;
+        auto drawn = *drawing::drawSection(house.volume, *drawing::elevationPlane("south", house.volume), options);
+        const double zero = drawn.axes.planeFromWorld({0, 0, hasTerrain ? -0.4 : 0.0}).v;
+        const std::vector<std::uint8_t> isAround = drawing::labelsAroundBuilding(house.volume);
+        hideBelowGround(drawn, house.volume, drawing::findLevels(house.volume), isAround);
+        std::size_t hidden = 0;
+        for (const drawing::BeyondLine& line : drawn.beyond) {
+            const double middle = 0.5 * (line.from.v + line.to.v);
+            EXPECT_EQ(line.kind == drawing::BeyondKind::Hidden, middle < zero - 0.01) << middle;
+            if (line.kind == drawing::BeyondKind::Hidden) EXPECT_EQ(isAround[line.label], 0);
+            hidden += line.kind == drawing::BeyondKind::Hidden ? 1 : 0;
+        }
+        EXPECT_EQ(hidden >= 3, !hasTerrain);
+    }
+}
+
+// A space in the open air reaches higher than the roof, and so does a tree.
+TEST(LevelMarks, TheHighestIsThatOfTheHull) {
+    House house;
+    house.addRow(3, 3);
+    house.add("terrace", "BuildingRoom", {0, 0, 3}, {9.8, 1.9, 5.67});
+    house.add("tree", "BuildingConstructiveElement", {4, 2, 0}, {5, 3, 4.56}).attributes = {
+        {"ifcType", std::string("IfcBuildingElementProxy"), ""}};
+    house.volume.labels.labels.back().name = "Tree";
+    drawing::SheetSet set;
+    set.tables = false;
+    const auto sheets = house.sheets({.scale = 100, .paper = "A2"}, set);
+    EXPECT_GT(countTexts(sheets, ".='+3.00'"), 0u);
+    EXPECT_EQ(countTexts(sheets, ".='+5.67' or .='+4.56'"), 0u);
+}
+
+// The pieces of a flat site have no lines between them in a plan; its outer edges stay. Before, lines ran from the corners
+// of the house to the edge of the drawing.
+TEST(TerrainLines, PiecesOfASiteJoin) {
+    House house;
+    house.addRow(3, 3);
+    const auto site = static_cast<std::uint32_t>(house.volume.labels.labels.size());
+    volume::test::addObject(house.volume, "site ground", "TINRelief").filling = volume::Filling::Solid;
+    volume::test::addBoxMesh(house.volume, site, {-6, -6, -1}, {4, 0, 0});
+    volume::test::addBoxMesh(house.volume, site, {4, -6, -1}, {14, 0, 0});
+    drawing::SectionOptions options;
+    options.beyond.visible = true;
+    auto drawn = *drawing::drawSection(house.volume, {{0, 0, 1}, {0, 0, 1.1}}, options);
+    const std::vector<std::uint8_t> isAround = drawing::labelsAroundBuilding(house.volume);
+    ASSERT_EQ(isAround[site], 1);
+    const auto linesAt = [&](double x) {
+        const double u = drawn.axes.planeFromWorld({x, 0, 0}).u;
+        return std::count_if(drawn.beyond.begin(), drawn.beyond.end(), [&](const drawing::BeyondLine& line) {
+            return line.label == site && std::abs(line.from.u - u) < 1e-4 && std::abs(line.to.u - u) < 1e-4;
+        });
+    };
+    removeTerrainJoints(drawn, house.volume, isAround);
+    EXPECT_EQ(linesAt(4), 0);
+    EXPECT_EQ(linesAt(-6), 1);
+    EXPECT_EQ(linesAt(14), 1);
+    // A step of 20 cm is a line.
+    volume::test::addBoxMesh(house.volume, site, {14, -6, -1}, {16, 0, -0.2});
+    drawn = *drawing::drawSection(house.volume, {{0, 0, 1}, {0, 0, 1.1}}, options);
+    removeTerrainJoints(drawn, house.volume, isAround);
+    EXPECT_EQ(linesAt(14), 1);
 }
 
 struct GroundOf {

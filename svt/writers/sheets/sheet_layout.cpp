@@ -3,6 +3,8 @@
 #include <svt/core/text.hpp>
 #include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/marks/ground_line.hpp>
+#include <svt/writers/marks/plan_lines.hpp>
 
 #include <fmt/format.h>
 
@@ -39,12 +41,17 @@ struct ViewSize {
     ViewMargins margins;
 };
 
-ViewMargins marginsOf(const DrawnView& view, const std::vector<drawing::BuildingLevel>& levels) {
+ViewMargins marginsOf(const DrawnView& view, const SheetContent& content) {
     using drawing::DimensionSide;
     const drawing::SectionDrawing& drawing = view.drawing;
     ViewMargins margins{dimensionReach(drawing, DimensionSide::Left), dimensionReach(drawing, DimensionSide::Right),
                         dimensionReach(drawing, DimensionSide::Above), dimensionReach(drawing, DimensionSide::Below)};
-    if (view.view.kind == drawing::ViewKind::Section) margins.left += levelNameWidth(levels) - LevelNames::kBeside;
+    if (view.view.kind == drawing::ViewKind::Section)
+        margins.left += levelNameWidth(content.levels) - LevelNames::kBeside;
+    // Level marks stand beside the ground line.
+    if (view.view.kind == drawing::ViewKind::Elevation) margins.right += kGroundOver;
+    if (view.view.kind == drawing::ViewKind::Plan && content.hasGrids)
+        for (double* margin : {&margins.left, &margins.right, &margins.above, &margins.below}) *margin += kGridMargin;
     return margins;
 }
 
@@ -186,7 +193,7 @@ Result<SheetLayout> layOutViews(const SheetContent& content, const SheetOptions&
     for (std::size_t n = 0; n < content.views.size(); ++n) {
         const auto [low, high] = drawnBox(content.views[n].drawing);
         if (high.u > low.u || high.v > low.v)
-            sizes.push_back({n, low, high.u - low.u, high.v - low.v, marginsOf(content.views[n], content.levels)});
+            sizes.push_back({n, low, high.u - low.u, high.v - low.v, marginsOf(content.views[n], content)});
     }
     const LayoutMaker maker(*paper, sizes, content);
     if (const double scale = maker.tooLargeScale(); scale > 0)

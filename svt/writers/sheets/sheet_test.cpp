@@ -242,6 +242,16 @@ TEST(DimensionMarks, RoomsAndOpeningsHaveNumbersThatDoNotMeet) {
     EXPECT_LT(placed.heights[0].at.v, 0) << "outside of the wall";
 }
 
+// The edge of a roof runs along the wall, 2 mm before it on paper. Before, it struck the heights of the window out.
+TEST(DimensionMarks, HeightsOfOpeningsAvoidLines) {
+    drawing::SectionDrawing drawing;
+    drawing.openings = {{2, {2, 0}, {0, -1}, 0.9, 2.135, true}};
+    drawing.beyond = {{{-1, -0.2}, {6, -0.2}, 0, drawing::BeyondKind::Above}};
+    const DimensionMarks placed = placeDimensions(drawing, {{0, 0}, {6, 6}}, 10);
+    ASSERT_EQ(placed.heights.size(), 2u);
+    for (const MarkText& text : placed.heights) EXPECT_LT(text.at.v + 0.73 * text.size, -2) << text.text;
+}
+
 // Numbers of any chain stand apart from each other, and inside of the room that the chains take.
 TEST(DimensionMarks, NoNumberStandsOnAnother) {
     drawing::SectionDrawing drawing;

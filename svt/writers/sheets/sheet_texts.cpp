@@ -107,6 +107,56 @@ std::string levelName(const drawing::BuildingLevel& level, double datum, SheetLa
     return fmt::format("{} {}", sheetWord(W::Level, language), numberText(height, 2, language));
 }
 
+// A room without a name has the word for a room: its id says nothing to a reader.
+std::string roomName(const drawing::RoomArea& room, const volume::LabelTable* labels, SheetLanguage language) {
+    const bool isUnnamed = labels != nullptr && room.label < labels->labels.size() &&
+                           labels->labels[room.label].name.empty() && room.name == labels->labels[room.label].id;
+    return isUnnamed ? std::string(sheetWord(W::Room, language)) : room.name;
+}
+
+// Some programs write the name into the number: "2 - Bedroom".
+std::string roomNumber(const drawing::RoomArea& room) {
+    const std::size_t name = room.name.empty() ? std::string::npos : room.number.rfind(room.name);
+    if (name == std::string::npos || name == 0 || name + room.name.size() != room.number.size()) return room.number;
+    const std::size_t last = room.number.find_last_not_of(" -:_", name - 1);
+    return last == std::string::npos ? room.number : room.number.substr(0, last + 1);
+}
+
+// Whether a number of a room comes first: by its leading words and numbers, so that 2 comes before 10.
+bool isNumberBefore(std::string_view a, std::string_view b) {
+    const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+    const auto numberAt = [&](std::string_view text, std::size_t at) {
+        std::size_t first = at, end = at;
+        while (end < text.size() && isDigit(text[end])) ++end;
+        while (first + 1 < end && text[first] == '0') ++first;
+        return std::pair(text.substr(first, end - first), end);
+    };
+    std::size_t i = 0, j = 0;
+    while (i < a.size() && j < b.size()) {
+        if (!isDigit(a[i]) || !isDigit(b[j])) {
+            if (a[i] != b[j]) return a[i] < b[j];
+            ++i;
+            ++j;
+            continue;
+        }
+        const auto [x, endOfX] = numberAt(a, i);
+        const auto [y, endOfY] = numberAt(b, j);
+        if (x != y) return x.size() != y.size() ? x.size() < y.size() : x < y;
+        i = endOfX;
+        j = endOfY;
+    }
+    return a.size() - i < b.size() - j;
+}
+
+// The rooms by level and number.
+std::vector<drawing::RoomArea> roomsInOrder(const drawing::FloorAreas& areas) {
+    std::vector<drawing::RoomArea> rooms = areas.rooms;
+    std::stable_sort(rooms.begin(), rooms.end(), [](const drawing::RoomArea& a, const drawing::RoomArea& b) {
+        return a.level != b.level ? a.level < b.level : isNumberBefore(a.number, b.number);
+    });
+    return rooms;
+}
+
 // Types with one word share a row, unless only one of them has a known area or volume.
 SheetTable componentTable(const drawing::FloorAreas& areas, SheetLanguage language) {
     std::vector<std::pair<std::string, drawing::ComponentSum>> sums;
@@ -164,7 +214,8 @@ std::string numberText(double value, int decimals, SheetLanguage language) {
 }
 
 std::vector<SheetTable> makeAreaTables(const drawing::FloorAreas& areas,
-                                       const std::vector<drawing::BuildingLevel>& levels, SheetLanguage language) {
+                                       const std::vector<drawing::BuildingLevel>& levels, SheetLanguage language,
+                                       const volume::LabelTable* labels) {
     const auto word = [&](SheetWord w) { return std::string(sheetWord(w, language)); };
     const auto number = [&](double value, int decimals = 2) { return numberText(value, decimals, language); };
     const double datum = drawing::zeroLevel(levels);
@@ -182,8 +233,9 @@ std::vector<SheetTable> makeAreaTables(const drawing::FloorAreas& areas,
                          1};
         double area = 0, volume = 0;
         const auto measured = [&](double value) { return value > 0 ? number(value) : std::string("\u2013"); };
-        for (const drawing::RoomArea& room : areas.rooms) {
-            rooms.rows.push_back({room.number, room.name, levelName(levels[room.level], datum, language),
+        for (const drawing::RoomArea& room : roomsInOrder(areas)) {
+            rooms.rows.push_back({roomNumber(room), roomName(room, labels, language),
+                                  levelName(levels[room.level], datum, language),
                                   std::string(drawing::roomUseName(room.use)), measured(room.area), number(room.height),
                                   measured(room.volume)});
             area += room.area;

@@ -3,12 +3,15 @@
 #include <svt/core/parallel.hpp>
 #include <svt/core/rounding.hpp>
 #include <svt/drawing/building_crop.hpp>
+#include <svt/drawing/hull_top.hpp>
 #include <svt/drawing/north.hpp>
 #include <svt/drawing/storey_floors.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/writers/canvas/svg_canvas.hpp>
 #include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/marks/ground_line.hpp>
+#include <svt/writers/marks/terrain_lines.hpp>
 #include <svt/writers/sheets/sheet_details.hpp>
 #include <svt/writers/sheets/sheet_layout.hpp>
 #include <svt/writers/sheets/sheet_painter.hpp>
@@ -28,6 +31,7 @@ namespace svt::writers {
 // Facts of the volume that all sheets share.
 struct VolumeFacts {
     std::vector<drawing::LabelExtent> extents;  // by label; empty without levels
+    drawing::HullTop top;
     ModelFacts model;
 };
 
@@ -321,27 +325,36 @@ private:
         }
     }
 
-    // Heights of the floors, and of the highest point, at the right.
+    // Heights of the floors, and of the highest point, at the right. Floors below the drawing are left out.
     void addHeights(const PlacedView& placed, const DrawnView& view) {
         if (content_.levels.empty()) return;
         const Vec3d up = volume_.grid.axes()[2], origin = volume_.grid.origin();
         const double x = placed.place.corner.x + placed.width + placed.margins.right;
         const double perHeight = dot(view.drawing.axes.v, up);
-        const double top = placed.place.low.v + placed.height / placed.place.millimetres;
-        double last = 1e9;  // y of the mark below
+        const std::optional<double> top = facts_.top.of(view.drawing);
+        std::string lastText;
+        double last = 1e9;            // y of the mark below
+        constexpr double kApart = 4;  // millimetres
         const auto mark = [&](double height, double y) {
-            if (last - y < 4) return;
+            if (last - y < kApart || y > placed.place.corner.y + kApart) return;
             last = y;
             line({x + 1, y}, {x + 13, y}, kFine);
             canvas_.stroke({{{x + 3, y}, {x + 2, y - 1.6}, {x + 4, y - 1.6}, {x + 3, y}}}, kFine);
-            canvas_.text({{x + 4.8, y - 0.8}, 2.2, heightMark(height)});
+            lastText = heightMark(height);
+            canvas_.text({{x + 4.8, y - 0.8}, 2.2, lastText});
         };
         for (const drawing::BuildingLevel& level : content_.levels) {
             const PlanePoint p = view.drawing.axes.planeFromWorld(origin + up * level.floor);
             mark(level.floor - datum(), placed.place.onPaper({0, p.v}).y);
         }
         const double zero = view.drawing.axes.planeFromWorld(origin + up * datum()).v;
-        mark((top - zero) / perHeight, placed.place.onPaper({0, top}).y);
+        if (!top) return;
+        // Near the highest floor, the line bends to where its number has a place.
+        const double topHeight = (*top - zero) / perHeight, y = placed.place.onPaper({0, *top}).y;
+        const double free = std::min(y, last - kApart);
+        if (y > last || heightMark(topHeight) == lastText) return;
+        if (free < y) line({x - 1, y}, {x + 1, free}, kFine);
+        mark(topHeight, free);
     }
 
     void addFrame(const Sheet& sheet, std::size_t number) {
@@ -462,7 +475,11 @@ private:
 SheetContent croppedContent(const SheetContent& content, const volume::SemanticVolume& volume) {
     SheetContent cropped = content;
     const std::vector<std::uint8_t> isAround = drawing::labelsAroundBuilding(volume);
-    for (DrawnView& view : cropped.views) view.drawing = drawing::croppedToBuilding(view.drawing, isAround);
+    for (DrawnView& view : cropped.views) {
+        view.drawing = drawing::croppedToBuilding(view.drawing, isAround);
+        if (view.view.kind == ViewKind::Elevation) hideBelowGround(view.drawing, volume, cropped.levels, isAround);
+        if (view.view.kind == ViewKind::Plan) removeTerrainJoints(view.drawing, volume, isAround);
+    }
     return cropped;
 }
 
@@ -485,7 +502,7 @@ Result<PreparedSheets> PreparedSheets::make(const SheetContent& content, const v
                                             const SheetOptions& options, int threads) {
     SheetContent cropped = croppedContent(content, volume);
     SVT_TRY(layout, layOutSheets(cropped, options));
-    VolumeFacts facts{{}, modelFacts(volume)};
+    VolumeFacts facts{{}, drawing::HullTop(volume.labels), modelFacts(volume)};
     if (!content.levels.empty()) facts.extents = drawing::labelExtents(volume);
     std::vector<std::vector<PreparedView>> views(layout->sheets.size());
     std::vector<std::vector<SheetTable>> tables(views.size());  // by sheet

@@ -46,7 +46,8 @@ std::string floorFinish(const volume::LabelTable& table, std::uint32_t room) {
     for (const Attribute& attribute : label.attributes) {
         const std::string name = lowerAscii(attribute.name.substr(attribute.name.rfind('.') + 1));
         const std::string* text = std::get_if<std::string>(&attribute.value);
-        if (text != nullptr && !text->empty() &&
+        // Templates repeat the name of the property as its value.
+        if (text != nullptr && !text->empty() && lowerAscii(*text) != name &&
             std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames))
             return *text;
     }
@@ -67,7 +68,8 @@ std::vector<RoomStamp> roomStamps(const ViewContext& context) {
         const volume::Label& label = context.volume.labels.labels[component.label];
         if (!model::isSpace(label.className) || component.polygons.empty()) continue;
         const std::string* number = textValue(label, "number");
-        const std::string name = shownName(label);
+        // The id of a room without a name says nothing to a reader.
+        const std::string name = label.name.empty() ? std::string(sheetWord(SheetWord::Room, language)) : label.name;
         const bool isNumbered = number != nullptr && !number->empty() && *number != name;
         // Some programs write the name into the number: "2 - Bedroom".
         const bool isInNumber = isNumbered && number->find(name) != std::string::npos;
