@@ -38,7 +38,7 @@ TABLE_BEGIN, TABLE_END = "<!-- checks: begin -->\n", "<!-- checks: end -->\n"
 FOLDERS = {
     "data": "core http plane record image model crs readers mesh validate",
     "volumes": "volume volume_readers voxelize analyze samples serve",
-    "pictures": "render render_gl drawing illustrate writers",
+    "pictures": "render render_gl drawing compare illustrate writers",
     "chains": "pipeline city frontend",
     "command": "cli",
 }
@@ -67,7 +67,8 @@ CHECKS = {
         for part, pattern in {
             "library": "/svt/(core|plane|record|image|model|crs|readers|mesh|validate"
             "|volume|volume_readers|voxelize|analyze|render)/",
-            "programs": "/svt/(render_gl|drawing|illustrate|writers|samples|serve|pipeline|city|frontend)/|/(apps|python)/",
+            "programs": "/svt/(render_gl|drawing|compare|illustrate|writers|samples|serve|pipeline|city|frontend)/"
+            "|/(apps|python)/",
         }.items()
     },
     "gcc": Check("scripts/setup.sh && SVT_KEEP_GOING=1 scripts/build.sh gcc", 15),

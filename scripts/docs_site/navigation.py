@@ -14,7 +14,20 @@ HOWTO = [
     *("cadastre-office", "configuration", "trouble"),
 ]
 COMMANDS = [
-    *("sample", "sample-city", "build", "info", "check", "render", "section", "query", "cadastre", "shell", "convert"),
+    *(
+        "sample",
+        "sample-city",
+        "build",
+        "info",
+        "check",
+        "render",
+        "section",
+        "query",
+        "cadastre",
+        "diff",
+        "shell",
+        "convert",
+    ),
     *("serve", "view", "city-plan", "city-run", "city-task", "city-status", "city-merge", "city-info", "city-extract"),
     *("thumbnail", "doctor", "describe"),
 ]

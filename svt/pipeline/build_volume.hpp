@@ -38,6 +38,7 @@ struct BuildOptions {
     std::uint64_t memoryBytes = SpacingChoice::kMemoryBytes;  ///< limit for a default spacing
     AxesKind axes = AxesKind::World;
     std::optional<volume::Grid> grid;  ///< grid of another volume; dimension, spacing and axes are then ignored
+    bool extendsGrid = false;          ///< only the sample positions of `grid` count: the volume covers the model
     model::LodChoice lod;
     readers::ReadOptions read;         ///< for files; threads and progress are those below
     bool assignThematicBodies = true;  ///< assigns material between hull and rooms to the nearest boundary surface

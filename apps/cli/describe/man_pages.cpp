@@ -18,6 +18,7 @@ constexpr std::string_view kExitCodes[][2] = {
     {"4", "a defect prevents the use of the model (check), or it has any defect (\\-\\-strict)"},
     {"5", "output that cannot be written"},
     {"6", "no graphics driver (render \\-\\-gl), or no cairo library (sheets as PDF)"},
+    {"7", "differences were found (diff); not an error"},
     {"8", "a limit or the memory is exceeded"},
     {"9", "cancelled"},
     {"129, 130, 143", "ended by the signal HUP, INT or TERM"},

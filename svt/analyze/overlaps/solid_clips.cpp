@@ -10,9 +10,9 @@ namespace {
 
 using MeshTriangle = volume::VectorParts::Triangle;
 
-std::array<Vec3d, 3> cornersOf(const MeshTriangle& triangle, const volume::VectorParts& parts) {
-    return {parts.position(triangle.corners[0], {}), parts.position(triangle.corners[1], {}),
-            parts.position(triangle.corners[2], {})};
+std::array<Vec3d, 3> cornersOf(const MeshTriangle& triangle, const volume::VectorParts& parts, Vec3d offset) {
+    return {parts.position(triangle.corners[0], offset), parts.position(triangle.corners[1], offset),
+            parts.position(triangle.corners[2], offset)};
 }
 
 Box3d boxOfCorners(const std::array<Vec3d, 3>& corners) {
@@ -27,15 +27,15 @@ bool hasClosedMesh(volume::Filling filling) noexcept {
     return filling >= volume::Filling::Solid && filling <= volume::Filling::Capped;
 }
 
-std::vector<MeshSolid> meshSolids(const volume::SemanticVolume& volume) {
+std::vector<MeshSolid> meshSolids(const volume::SemanticVolume& volume, Vec3d offset) {
     std::vector<MeshSolid> solids;
     const std::span<const MeshTriangle> all = volume.vectors.triangles;
     for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
         while (end < all.size() && all[end].label == all[begin].label) ++end;
-        MeshSolid solid{all[begin].label, all.subspan(begin, end - begin), {}};
+        MeshSolid solid{all[begin].label, all.subspan(begin, end - begin), {}, offset};
         if (!hasClosedMesh(volume.labels.labels[solid.label].filling)) continue;
         for (const MeshTriangle& triangle : solid.triangles)
-            solid.box.add(boxOfCorners(cornersOf(triangle, volume.vectors)));
+            solid.box.add(boxOfCorners(cornersOf(triangle, volume.vectors, offset)));
         solids.push_back(solid);
     }
     return solids;
@@ -54,7 +54,7 @@ SolidClip clipSolid(const MeshSolid& solid, const volume::VectorParts& parts, co
     const Vec3d size = box.size() + Vec3d{1, 1, 1} * (2 * parts.unit);
     const double largest = length(Vec3d{size.x * size.y, size.y * size.z, size.z * size.x});
     for (const MeshTriangle& triangle : solid.triangles) {
-        const std::array<Vec3d, 3> corners = cornersOf(triangle, parts);
+        const std::array<Vec3d, 3> corners = cornersOf(triangle, parts, solid.offset);
         const Box3d of = boxOfCorners(corners);
         if (of.max.x < box.min.x || of.min.x > box.max.x || of.max.y < box.min.y || of.min.y > box.max.y) continue;
         RoofTriangle roof;
@@ -67,6 +67,12 @@ SolidClip clipSolid(const MeshSolid& solid, const volume::VectorParts& parts, co
         return std::tie(s.minX, s.minY, s.maxX, s.maxY) < std::tie(t.minX, t.minY, t.maxX, t.maxY);
     });
     return clip;
+}
+
+double boundOfCommonVolume(double area, double unit, const Box3d& box, double lowest) {
+    constexpr double kRoundingOfSum = 1e-9;
+    const Vec3d size = box.size();
+    return area * unit + kRoundingOfSum * size.x * size.y * std::max(0.0, box.max.z - std::min(lowest, box.min.z));
 }
 
 }  // namespace svt::analyze

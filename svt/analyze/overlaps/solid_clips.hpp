@@ -18,13 +18,15 @@ struct MeshSolid {
     std::uint32_t label = 0;
     std::span<const volume::VectorParts::Triangle> triangles;
     Box3d box;
+    Vec3d offset{};  ///< added to all corners: from the lower corner of another grid
 };
 
 /// Whether the mesh of a label is closed, so that its volume is exact.
 [[nodiscard]] bool hasClosedMesh(volume::Filling filling) noexcept;
 
 /// The labels with closed meshes, ascending. The result refers to the triangles of `volume`.
-[[nodiscard]] std::vector<MeshSolid> meshSolids(const volume::SemanticVolume& volume);
+/// \param offset  see MeshSolid
+[[nodiscard]] std::vector<MeshSolid> meshSolids(const volume::SemanticVolume& volume, Vec3d offset = {});
 
 /// The box that two boxes share; empty where they have no volume in common.
 [[nodiscard]] Box3d commonBox(const Box3d& a, const Box3d& b);
@@ -36,5 +38,12 @@ struct SolidClip {
     double lowest = kInfinity;
 };
 [[nodiscard]] SolidClip clipSolid(const MeshSolid& solid, const volume::VectorParts& parts, const Box3d& box);
+
+/// m3 by which commonVolume() of two clips may be off: each face lies within the rounding of its corners, and the sum of
+/// prisms rounds, too, also where no face is in the box.
+/// \param area    m2 of both clips
+/// \param unit    of the points, metres
+/// \param lowest  of both clips
+[[nodiscard]] double boundOfCommonVolume(double area, double unit, const Box3d& box, double lowest);
 
 }  // namespace svt::analyze

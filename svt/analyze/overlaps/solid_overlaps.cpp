@@ -85,12 +85,7 @@ private:
         SolidOverlap overlap{a, b};
         const double lowest = std::min(ofS.lowest, ofT.lowest);
         overlap.volume = std::max(0.0, commonVolume(ofS.roofs, ofT.roofs, lowest));
-        // Each face lies within the rounding of its corners. The sum of prisms rounds, too, also where no face is in
-        // the box.
-        constexpr double kRoundingOfSum = 1e-9;
-        const Vec3d size = box.size();
-        overlap.bound = (ofS.area + ofT.area) * volume_.vectors.unit +
-                        kRoundingOfSum * size.x * size.y * std::max(0.0, box.max.z - std::min(lowest, box.min.z));
+        overlap.bound = boundOfCommonVolume(ofS.area + ofT.area, volume_.vectors.unit, box, lowest);
         overlap.isExact = true;
         overlap.isNested = areNested(volume_.labels, a, b);
         if (const auto known = found_.find({a, b}); known != found_.end()) overlap.voxels = known->second.voxels;

@@ -56,11 +56,41 @@ SpacingChoice chooseDefault(const mesh::MeshSet& meshes, const std::array<Vec3d,
     return finer;
 }
 
+// The samples of an endless grid that cover all objects. Huge objects reach no further than the given grid and the other
+// objects.
+Result<volume::Grid> extendGrid(const mesh::MeshSet& meshes, const volume::Grid& grid) {
+    const std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+    Box3d box;
+    for (const mesh::ObjectMesh& object : meshes.objects)
+        for (const Vec3d& vertex : object.vertices) box.add(grid.indexFromWorld(vertex + meshes.origin));
+    if (const auto core = coreOf(meshes, boxesOf(meshes, axes, meshes.origin))) {
+        Box3d most{{0, 0, 0}, toDouble(grid.dimension() - Vec3i{1, 1, 1})};
+        for (int corner = 0; corner < 8; ++corner)
+            most.add(grid.indexFromWorld({corner & 1 ? core->box.max.x : core->box.min.x,
+                                          corner & 2 ? core->box.max.y : core->box.min.y,
+                                          corner & 4 ? core->box.max.z : core->box.min.z}));
+        for (int axis = 0; axis < 3; ++axis) {
+            box.min[axis] = std::max(box.min[axis], most.min[axis]);
+            box.max[axis] = std::min(box.max[axis], most.max[axis]);
+        }
+    }
+    if (box.isEmpty()) return grid;
+    Vec3d first{};
+    Vec3i dimension{};
+    for (int axis = 0; axis < 3; ++axis) {
+        constexpr double kRounding = 1e-6;  // of a voxel
+        first[axis] = std::floor(box.min[axis] + kRounding);
+        const double count = std::max(2.0, std::ceil(box.max[axis] - kRounding) - first[axis] + 1);
+        dimension[axis] = static_cast<std::int32_t>(std::min(count, 1e9));
+    }
+    return volume::Grid::fromParts(dimension, grid.spacing(), grid.worldFromIndex(first), grid.axes());
+}
+
 }  // namespace
 
 Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions& options,
                                 std::optional<SpacingChoice>* choice) {
-    if (options.grid) return *options.grid;
+    if (options.grid) return options.extendsGrid ? extendGrid(meshes, *options.grid) : *options.grid;
     Box3d box;
     std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
     if (options.axes == AxesKind::Building) {

@@ -1,0 +1,178 @@
+#include <apps/cli/city/city_input.hpp>
+#include <apps/cli/diff/comparison_reports.hpp>
+#include <apps/cli/options/catalog.hpp>
+#include <apps/cli/options/load_volume.hpp>
+#include <apps/cli/options/shared_options.hpp>
+#include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/output_files.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
+
+#include <svt/compare/comparison.hpp>
+#include <svt/compare/difference_volume.hpp>
+#include <svt/core/file.hpp>
+#include <svt/volume/svt_file.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::cli {
+namespace {
+
+enum class Align : std::uint8_t { None, Translation };
+constexpr auto namesOf(Align) {
+    return std::to_array<Name<Align>>({{Align::None, "none"}, {Align::Translation, "translation"}});
+}
+
+struct DiffArguments {
+    std::filesystem::path was, is;
+    std::vector<std::filesystem::path> outputs;
+    compare::CompareOptions options;
+    Align align = Align::None;
+    pipeline::BuildOptions build;
+    bool json = false, csv = false, all = false, verbose = false;
+};
+
+// The new volume, on the sample positions of a grid.
+Result<volume::SemanticVolume> loadNew(const DiffArguments& arguments, const volume::Grid& grid,
+                                       const Progress* progress, bool isVerbose) {
+    pipeline::BuildOptions build = arguments.build;
+    build.vectors.meshes = true;
+    build.extendsGrid = true;
+    return loadVolume(arguments.is, build, progress, isVerbose, &grid);
+}
+
+// Moves the new volume to the old one. The offset is reported, so that nobody takes a shifted model for a changed one, or
+// the reverse. A model is built again, so that its samples coincide with those of the old one after the move.
+Result<void> align(const DiffArguments& arguments, const volume::SemanticVolume& was, const Progress* progress,
+                   volume::SemanticVolume& is) {
+    if (arguments.align == Align::None) return {};
+    const auto offset = compare::estimateTranslation(was, is, arguments.options.tolerance);
+    if (!offset) {
+        note(
+            "no common translation is found: fewer than half of the objects with one shape agree; the models stay in "
+            "their places");
+        return {};
+    }
+    if (length(*offset) <= arguments.options.tolerance) {
+        note("the models are aligned; no translation is applied");
+        return {};
+    }
+    const volume::Grid& grid = was.grid;
+    SVT_TRY(shifted, volume::Grid::fromParts(grid.dimension(), grid.spacing(), grid.origin() + *offset, grid.axes()));
+    if (!volume::isSvtFile(arguments.is)) {
+        SVT_TRY(again, loadNew(arguments, *shifted, progress, false));
+        is = std::move(*again);
+    }
+    SVT_TRY(moved, compare::translated(is, -*offset));
+    is = std::move(*moved);
+    note(fmt::format("the new model is moved by {:.4f}, {:.4f}, {:.4f} m for the comparison", -offset->x, -offset->y,
+                     -offset->z));
+    return {};
+}
+
+Box3d boxOf(const volume::Grid& grid) {
+    Box3d box;
+    const Vec3d last = toDouble(grid.dimension() - Vec3i{1, 1, 1});
+    for (int corner = 0; corner < 8; ++corner)
+        box.add(grid.worldFromIndex({corner & 1 ? last.x : 0.0, corner & 2 ? last.y : 0.0, corner & 4 ? last.z : 0.0}));
+    return box;
+}
+
+void printNotes(const Compared& compared) {
+    const auto withoutFaces = [](const volume::SemanticVolume& volume) { return volume.vectors.triangles.empty(); };
+    if (withoutFaces(compared.was) || withoutFaces(compared.is))
+        note("a volume has no meshes, so voxels decide; build it with --vectors meshes for exact volumes");
+    if (!boxOf(compared.was.grid).overlaps(boxOf(compared.is.grid)))
+        note("the models have no place in common; to compare them at one place, use --align translation");
+    if (!compared.comparison.isOnOneLattice)
+        note(
+            "the samples of both volumes do not coincide: objects without closed meshes have no volumes; give models, "
+            "or build the new volume from its model in this command");
+    if (!compared.comparison.isComplete)
+        note("some pairs of objects have too many faces for exact volumes; their volumes come from voxels");
+}
+
+Result<void> writeOutput(const std::filesystem::path& output, const Compared& compared) {
+    const std::string ending = endingOf(output);
+    if (ending == ".svt") {
+        SVT_TRY(volume, compare::makeDifferenceVolume(compared.was, compared.is, compared.comparison));
+        SVT_DO(volume::writeSvt(*volume, output));
+    } else if (ending == ".csv") {
+        SVT_DO(writeFileAtomically(output, writers::makeCsv(comparisonTable(compared, true))));
+    } else {
+        SVT_DO(writeFileAtomically(
+            output, comparisonJson(compared).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"));
+    }
+    return {};
+}
+
+Result<int> runDiff(const DiffArguments& arguments) {
+    for (const std::filesystem::path& input : {arguments.was, arguments.is})
+        if (isCity(input))
+            return Error(Code::BadArgument,
+                         "'" + input.string() + "' is a city; compare parts of it (svt city extract)");
+    const TerminalProgress progress;
+    pipeline::BuildOptions build = arguments.build;
+    build.vectors.meshes = true;
+    SVT_TRY(was, loadVolume(arguments.was, build, progress.get(), arguments.verbose));
+    SVT_TRY(is, loadNew(arguments, was->grid, progress.get(), arguments.verbose));
+    SVT_DO(align(arguments, *was, progress.get(), *is));
+    compare::CompareOptions options = arguments.options;
+    options.threads = arguments.build.threads;
+    options.progress = progress.get();
+    SVT_TRY(comparison, compare::compareVolumes(*was, *is, options));
+    const Compared compared{*was, *is, *comparison};
+    printNotes(compared);
+    for (const std::filesystem::path& output : arguments.outputs) SVT_DO(writeOutput(output, compared));
+    TerminalProgress::hide();
+    if (arguments.json)
+        print(comparisonJson(compared));
+    else if (arguments.csv)
+        print(comparisonTable(compared, true), TableFormat::Csv);
+    else if (const Table table = comparisonTable(compared, arguments.all, 3); !table.rows.empty())
+        print(table, TableFormat::Text);
+    if (!arguments.json && !arguments.csv) summarize(comparisonSummary(compared));
+    return comparison->isDifferent() ? kDifferent : kDone;
+}
+
+Members<DiffArguments> membersOf(const DiffArguments*) noexcept {
+    using All = DiffArguments;
+    using compare::CompareOptions;
+    static constexpr Member<All> kMembers[] = {
+        member<&All::was>("old", "the old state: a .svt or a model file",
+                          {.value = "OLD", .isRequired = true, .file = FileUse::ModelOrVolume}),
+        member<&All::is>("new", "the new state: a .svt or a model file, also in another format",
+                         {.value = "NEW", .isRequired = true, .file = FileUse::ModelOrVolume}),
+        member<&All::outputs>(
+            "-o,--output",
+            "file to write: all rows (.csv, .json), or both states as a volume whose colours show the "
+            "changes (.svt)",
+            {.value = "FILE", .file = FileUse::Output, .formats = "csv|json|svt"}),
+        member<&All::options, &CompareOptions::match>(
+            "--match", "how objects are matched: by space and ids, by space only, or by ids only",
+            {.group = "Comparison"}),
+        member<&All::options, &CompareOptions::tolerance>(
+            "--tolerance", "an object whose faces are within this distance is the same",
+            {.unit = "metres", .least = 0.000001, .most = 1000, .group = "Comparison"}),
+        member<&All::options, &CompareOptions::properties>("--properties",
+                                                           "properties that are compared: class, name, storey and all "
+                                                           "attributes (all), without attributes (names), or none",
+                                                           {.group = "Comparison"}),
+        member<&All::align>("--align", "moves the new model by the translation that most objects share, and reports it",
+                            {.group = "Comparison"}),
+        member<&All::all>("--all", "print objects that are the same, too", {.group = "Output"}),
+        member<&All::json>("--json", "print rows and summary as JSON on stdout",
+                           {.group = "Output", .excludes = "--csv"}),
+        member<&All::csv>("--csv", "print all rows as CSV on stdout", {.group = "Output"}),
+        verboseOption<&All::verbose>(),
+        quietOption<All>(),
+        part<&All::build>("build"),
+    };
+    return kMembers;
+}
+
+}  // namespace
+
+extern const CommandText kDiffCommand = commandOf<DiffArguments, runDiff>(
+    "diff", "Compare two states of a building: moved, changed, added, removed objects");
+
+}  // namespace svt::cli

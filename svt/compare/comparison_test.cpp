@@ -1,0 +1,320 @@
+// Comparisons of generated models with known changes.
+#include <svt/compare/comparison.hpp>
+#include <svt/compare/difference_volume.hpp>
+
+#include <svt/core/temporary_folder_test.hpp>
+#include <svt/core/test_data_test.hpp>
+#include <svt/model/building_model.hpp>
+#include <svt/pipeline/build_volume.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace svt::compare {
+namespace {
+
+constexpr double kSpacing = 0.1;
+
+/// A box with outward faces, as a feature of a class.
+struct TestBox {
+    std::string id, className;
+    Vec3d min, max;
+    std::string name{};
+};
+
+void addFace(model::BuildingModel& model, model::Solid& solid, std::vector<Vec3d> points) {
+    model::Polygon polygon;
+    polygon.ringEnds = {static_cast<std::uint32_t>(points.size())};
+    polygon.points = std::move(points);
+    solid.exterior.push_back({model.addPolygon(std::move(polygon)), false});
+}
+
+// \param isSplit  each face as four triangles about its centre
+model::BuildingModel modelOf(const std::vector<TestBox>& boxes, bool isSplit = false) {
+    model::BuildingModel model;
+    for (const TestBox& box : boxes) {
+        model::Solid solid;
+        const auto corner = [&](int c) {
+            return Vec3d{c & 1 ? box.max.x : box.min.x, c & 2 ? box.max.y : box.min.y, c & 4 ? box.max.z : box.min.z};
+        };
+        for (const auto& face : {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4},
+                                 std::array{2, 6, 7, 3}, std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}}) {
+            const Vec3d a = corner(face[0]), b = corner(face[1]), c = corner(face[2]), d = corner(face[3]);
+            if (!isSplit) {
+                addFace(model, solid, {a, b, c, d});
+                continue;
+            }
+            const Vec3d middle = (a + c) / 2.0;
+            addFace(model, solid, {a, b, middle});
+            addFace(model, solid, {b, c, middle});
+            addFace(model, solid, {c, d, middle});
+            addFace(model, solid, {d, a, middle});
+        }
+        model::Feature feature;
+        feature.id = box.id;
+        feature.className = box.className;
+        feature.name = box.name;
+        model::Geometry geometry;
+        geometry.kind = model::GeometryKind::Solid;
+        geometry.solids.push_back(std::move(solid));
+        feature.geometries.push_back(std::move(geometry));
+        model.addFeature(std::move(feature), model::kNoFeature);
+    }
+    return model;
+}
+
+volume::SemanticVolume volumeOf(model::BuildingModel model, const volume::Grid* grid = nullptr) {
+    pipeline::BuildOptions options;
+    options.spacing = Vec3d{kSpacing, kSpacing, kSpacing};
+    options.vectors.meshes = true;
+    if (grid != nullptr) options.grid = *grid;
+    options.extendsGrid = grid != nullptr;
+    auto built = pipeline::buildVolume(model, options);
+    EXPECT_TRUE(built) << built.error().toString();
+    return built ? std::move(built->volume) : volume::SemanticVolume{};
+}
+
+class Compared {
+public:
+    Compared(const std::vector<TestBox>& before, const std::vector<TestBox>& after, CompareOptions options = {},
+             bool isSplit = false)
+        : was(volumeOf(modelOf(before))), is(volumeOf(modelOf(after, isSplit), &was.grid)) {
+        auto result = compareVolumes(was, is, options);
+        EXPECT_TRUE(result) << result.error().toString();
+        if (result) comparison = std::move(*result);
+    }
+    /// The row of an object by its new id, else by its old one.
+    [[nodiscard]] const ComparisonRow& row(const std::string& id) const {
+        for (const ComparisonRow& row : comparison.rows)
+            for (const std::uint32_t l : row.is)
+                if (is.labels.labels[l].id == id) return row;
+        for (const ComparisonRow& row : comparison.rows)
+            for (const std::uint32_t l : row.was)
+                if (was.labels.labels[l].id == id) return row;
+        ADD_FAILURE() << "no row of " << id;
+        return comparison.rows.front();
+    }
+    volume::SemanticVolume was, is;
+    Comparison comparison;
+};
+
+const TestBox kWall{"wall", "Wall", {0, 0, 0}, {4, 0.3, 3}};
+const TestBox kSlab{"slab", "Slab", {0, 0, -0.25}, {4, 5, 0}};
+
+TEST(Comparison, OfEqualModelsFindsNothing) {
+    const Compared compared({kWall, kSlab}, {kWall, kSlab});
+    EXPECT_FALSE(compared.comparison.isDifferent());
+    EXPECT_TRUE(compared.comparison.isOnOneLattice);
+    EXPECT_EQ(compared.comparison.counts[std::size_t(Change::Same)], 2u);
+    EXPECT_EQ(compared.row("wall").distance, 0.0);
+}
+
+TEST(Comparison, IgnoresIdsTrianglesAndOrder) {
+    TestBox wall = kWall, slab = kSlab;
+    wall.id = "1";
+    slab.id = "2";
+    const Compared compared({kWall, kSlab}, {slab, wall}, {}, true);
+    EXPECT_FALSE(compared.comparison.isDifferent());
+    EXPECT_TRUE(compared.row("1").hasOtherId);
+    EXPECT_EQ(compared.was.labels.labels[compared.row("1").was[0]].id, "wall");
+    EXPECT_TRUE(compared.row("1").isExact);
+    EXPECT_NEAR(compared.row("1").added.value_or(1), 0, 1e-12);
+}
+
+TEST(Comparison, FindsMoves) {
+    for (const bool keepsId : {true, false})
+        for (const double by : {0.02, 0.5, 7.0}) {
+            TestBox moved = kWall;
+            moved.min.y += by;
+            moved.max.y += by;
+            if (!keepsId) moved.id = "other";
+            const Compared compared({kWall, kSlab}, {moved, kSlab});
+            const ComparisonRow& row = compared.row(moved.id);
+            ASSERT_EQ(row.change, Change::Moved) << by;
+            ASSERT_TRUE(row.vector);
+            EXPECT_NEAR(row.vector->y, by, 2e-6);
+            EXPECT_NEAR(row.vector->x, 0, 2e-6);
+            EXPECT_TRUE(row.isExact);
+            EXPECT_NEAR(row.added.value_or(0), 4 * 3 * std::min(by, 0.3), 1e-4);
+            EXPECT_NEAR(row.removed.value_or(0), 4 * 3 * std::min(by, 0.3), 1e-4);
+            EXPECT_EQ(compared.comparison.counts[std::size_t(Change::Same)], 1u);
+        }
+}
+
+TEST(Comparison, KeepsMovesBelowTheTolerance) {
+    TestBox moved = kWall;
+    moved.min.y += 0.005;
+    moved.max.y += 0.005;
+    EXPECT_EQ(Compared({kWall}, {moved}).row("wall").change, Change::Same);
+    CompareOptions fine;
+    fine.tolerance = 0.002;
+    const Compared compared({kWall}, {moved}, fine);
+    EXPECT_EQ(compared.row("wall").change, Change::Moved);
+    EXPECT_NEAR(compared.row("wall").vector->y, 0.005, 2e-6);
+}
+
+TEST(Comparison, MeasuresOtherShapes) {
+    TestBox longer = kWall;
+    longer.max.x = 4.5;
+    const Compared compared({kWall, kSlab}, {longer, kSlab});
+    const ComparisonRow& row = compared.row("wall");
+    EXPECT_EQ(row.change, Change::Changed);
+    EXPECT_NEAR(row.added.value_or(0), 0.5 * 0.3 * 3, 1e-4);
+    EXPECT_NEAR(row.removed.value_or(1), 0, 1e-9);
+    EXPECT_NEAR(row.distance.value_or(0), 0.5, 1e-6);
+    EXPECT_LT(row.bound.value_or(1), 1e-3);
+}
+
+// A plate of 20 mm with a hole of 100 x 100 mm: all corners of the new faces lie on old faces.
+TEST(Comparison, FindsASmallHole) {
+    const TestBox plate{"plate", "Slab", {0, 0, 0}, {2, 1, 0.02}};
+    auto holed = modelOf({plate});
+    const auto square = [](double a, double b, double z) {
+        return std::vector<Vec3d>{{a, a, z}, {b, a, z}, {b, b, z}, {a, b, z}};
+    };
+    for (const bool isTop : {false, true}) {
+        model::Polygon& face = holed.polygons[isTop ? 1 : 0];
+        std::vector<Vec3d> ring = square(0.4, 0.5, isTop ? 0.02 : 0);
+        if (isTop) std::reverse(ring.begin(), ring.end());
+        face.points.insert(face.points.end(), ring.begin(), ring.end());
+        face.ringEnds.push_back(static_cast<std::uint32_t>(face.points.size()));
+    }
+    const auto low = square(0.4, 0.5, 0), high = square(0.4, 0.5, 0.02);
+    for (std::size_t n = 0; n < 4; ++n)
+        addFace(holed, holed.features[0].geometries[0].solids[0],
+                {low[(n + 1) % 4], low[n], high[n], high[(n + 1) % 4]});
+    const auto was = volumeOf(modelOf({plate})), is = volumeOf(holed, &was.grid);
+    const auto comparison = compareVolumes(was, is);
+    ASSERT_TRUE(comparison);
+    const ComparisonRow& row = comparison->rows.front();
+    EXPECT_EQ(row.change, Change::Changed);
+    EXPECT_TRUE(row.isExact);
+    EXPECT_NEAR(row.removed.value_or(0), 0.1 * 0.1 * 0.02, 2e-5);
+    EXPECT_GT(row.distance.value_or(0), 0.03);
+    EXPECT_LE(row.distance.value_or(1), 0.0501);
+}
+
+TEST(Comparison, FindsAddedAndRemovedObjects) {
+    const TestBox column{"column", "Column", {2, 2, 0}, {2.4, 2.4, 3}};
+    const Compared compared({kWall, column}, {kWall, kSlab});
+    EXPECT_EQ(compared.row("column").change, Change::Removed);
+    EXPECT_NEAR(compared.row("column").removed.value_or(0), 0.4 * 0.4 * 3, 1e-5);
+    EXPECT_EQ(compared.row("slab").change, Change::Added);
+    EXPECT_NEAR(compared.row("slab").added.value_or(0), 4 * 5 * 0.25, 1e-4);
+}
+
+TEST(Comparison, FindsSplitsAndMerges) {
+    TestBox left = kWall, right = kWall;
+    right.id = "right";
+    left.max.x = right.min.x = 2.5;
+    const Compared split({kWall, kSlab}, {left, right, kSlab});
+    EXPECT_EQ(split.row("right").change, Change::Split);
+    EXPECT_EQ(split.row("right").is.size(), 2u);
+    EXPECT_NEAR(split.row("right").added.value_or(1) + split.row("right").removed.value_or(1), 0, 1e-9);
+    const Compared merged({left, right, kSlab}, {kWall, kSlab});
+    EXPECT_EQ(merged.row("wall").change, Change::Merged);
+    EXPECT_EQ(merged.row("wall").was.size(), 2u);
+}
+
+TEST(Comparison, FindsOtherNamesClassesAndOwnersOfSpace) {
+    TestBox renamed = kWall, other = kSlab;
+    renamed.name = "W1";
+    other.id = "roof";
+    other.className = "Roof";
+    const Compared compared({kWall, kSlab}, {renamed, other});
+    EXPECT_EQ(compared.row("wall").change, Change::Same);
+    EXPECT_TRUE(compared.row("wall").hasOtherName);
+    EXPECT_EQ(compared.row("roof").change, Change::Reassigned);
+    EXPECT_TRUE(compared.row("roof").hasOtherClass);
+    EXPECT_TRUE(compared.comparison.isDifferent());
+}
+
+TEST(Comparison, FollowsIdsThatMovedIntoEachOthersPlace) {
+    const auto boxAt = [](const std::string& id, double x) {
+        return TestBox{id, "Column", {x, 0, 0}, {x + 0.4, 0.4, 3}};
+    };
+    const Compared compared({boxAt("a", 0), boxAt("b", 2)}, {boxAt("a", 2), boxAt("b", 4)});
+    EXPECT_EQ(compared.row("a").change, Change::Moved);
+    EXPECT_EQ(compared.row("b").change, Change::Moved);
+    CompareOptions bySpace;
+    bySpace.match = MatchBy::Space;
+    const Compared space({boxAt("a", 0), boxAt("b", 2)}, {boxAt("a", 2), boxAt("b", 4)}, bySpace);
+    EXPECT_EQ(space.comparison.counts[std::size_t(Change::Same)], 1u);
+    EXPECT_EQ(space.comparison.counts[std::size_t(Change::Moved)], 1u);
+}
+
+TEST(Comparison, TakesManyEqualObjectsInSeconds) {
+    std::vector<TestBox> before, after;
+    for (int n = 0; n < 2000; ++n) {
+        const double x = n % 50 * 0.3, y = n / 50 % 40 * 0.3;
+        before.push_back({"old" + std::to_string(n), "Brick", {x, y, 0}, {x + 0.2, y + 0.2, 0.2}});
+        after.push_back({"new" + std::to_string(n), "Brick", {x, y, 1}, {x + 0.2, y + 0.2, 1.2}});
+    }
+    const Compared compared(before, after);
+    EXPECT_EQ(compared.comparison.counts[std::size_t(Change::Moved)], 2000u);
+    for (const ComparisonRow& row : compared.comparison.rows) {
+        ASSERT_TRUE(row.vector);
+        EXPECT_NEAR(length(*row.vector - Vec3d{0, 0, 1}), 0, 1e-5);
+    }
+}
+
+TEST(Comparison, RefusesOtherReferenceSystemsAndTolerances) {
+    Compared compared({kWall}, {kWall});
+    CompareOptions options;
+    options.tolerance = 0;
+    EXPECT_EQ(compareVolumes(compared.was, compared.is, options).error().code(), Code::BadArgument);
+    compared.was.crsName = "EPSG:25832";
+    compared.is.crsName = "urn:ogc:def:crs:EPSG::25832";
+    EXPECT_TRUE(compareVolumes(compared.was, compared.is));
+    compared.is.crsName = "EPSG:25833";
+    EXPECT_EQ(compareVolumes(compared.was, compared.is).error().code(), Code::BadArgument);
+}
+
+TEST(DifferenceVolume, CountsTheSpaceThatChanged) {
+    TestBox longer = kWall;
+    longer.max.x = 4.5;
+    const TestBox column{"column", "Column", {2, 2, 0}, {2.4, 2.4, 3}};
+    const TestBox slab{"slab", "Slab", {0, 0, -0.3}, {4, 5, 0}};
+    const Compared compared({kWall, column, slab}, {longer, slab});
+    const auto difference = makeDifferenceVolume(compared.was, compared.is, compared.comparison);
+    ASSERT_TRUE(difference) << difference.error().toString();
+    const auto volumeOfPart = [&](const std::string& id) {
+        for (const volume::Label& label : difference->labels.labels)
+            if (label.id == id) return double(label.voxels) * difference->grid.voxelVolume();
+        ADD_FAILURE() << id;
+        return 0.0;
+    };
+    EXPECT_NEAR(volumeOfPart("wall/added"), 0.5 * 0.3 * 3, 1e-9);
+    EXPECT_NEAR(volumeOfPart("wall/removed"), 0, 1e-9);
+    EXPECT_NEAR(volumeOfPart("wall"), 4 * 0.3 * 3, 1e-9);
+    EXPECT_NEAR(volumeOfPart("column"), 0.4 * 0.4 * 3, 1e-9);
+    EXPECT_NEAR(volumeOfPart("slab"), 4 * 5 * 0.3, 1e-9);
+    EXPECT_EQ(difference->grid.dimension(), compared.was.grid.dimension() + (Vec3i{5, 0, 0}));
+}
+
+TEST(EstimatedTranslation, IsThatOfMostObjects) {
+    const Vec3d by{12.5, -3.25, 0.5};
+    std::vector<TestBox> before, after;
+    for (int n = 0; n < 9; ++n) {
+        before.push_back({"b" + std::to_string(n), "Wall", {n * 1.0, 0, 0}, {n + 0.2, 1.0 + n * 0.1, 3}});
+        after.push_back(before.back());
+        const Vec3d shift = n < 7 ? by : Vec3d{1, 1, 1};
+        after.back().min = after.back().min + shift;
+        after.back().max = after.back().max + shift;
+    }
+    const auto was = volumeOf(modelOf(before)), is = volumeOf(modelOf(after));
+    const auto offset = estimateTranslation(was, is, 0.01);
+    ASSERT_TRUE(offset);
+    EXPECT_NEAR(length(*offset - by), 0, 1e-5);
+    const auto back = translated(is, -*offset);
+    ASSERT_TRUE(back);
+    const auto comparison = compareVolumes(was, *back);
+    ASSERT_TRUE(comparison);
+    EXPECT_EQ(comparison->counts[std::size_t(Change::Same)], 7u);
+    EXPECT_EQ(comparison->counts[std::size_t(Change::Moved)], 2u);
+}
+
+}  // namespace
+}  // namespace svt::compare

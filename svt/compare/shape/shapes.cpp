@@ -1,0 +1,133 @@
+#include <svt/compare/shape/shapes.hpp>
+
+#include <svt/analyze/label_measures.hpp>
+#include <svt/core/hash.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace svt::compare {
+namespace {
+
+using Triangle = volume::VectorParts::Triangle;
+
+// The symmetric product of two vectors, in the order of Shape::moments.
+std::array<double, 6> productOf(Vec3d a, Vec3d b) noexcept {
+    return {a.x * b.x,
+            a.y * b.y,
+            a.z * b.z,
+            0.5 * (a.x * b.y + a.y * b.x),
+            0.5 * (a.y * b.z + a.z * b.y),
+            0.5 * (a.z * b.x + a.x * b.z)};
+}
+
+// A digest of one triangle that does not depend on its first corner.
+std::uint64_t digestOf(const Triangle& triangle, const volume::VectorParts& parts) noexcept {
+    std::array<Vec3i, 3> points{};
+    for (int c = 0; c < 3; ++c) points[std::size_t(c)] = parts.points[triangle.corners[std::size_t(c)]];
+    std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end());
+    std::uint64_t hash = 1;
+    for (const Vec3i& point : points)
+        for (int axis = 0; axis < 3; ++axis) hash = mixHash(hash, static_cast<std::uint32_t>(point[axis]));
+    return hash ^ hash >> 32;
+}
+
+// Sums over the triangles of one object, about a point near them.
+void measureFaces(Shape& shape) {
+    const Faces& faces = shape.faces;
+    for (std::size_t t = 0; t < faces.triangles.size(); ++t)
+        for (const Vec3d& corner : faces.corners(t)) shape.box.add(corner);
+    const Vec3d about = shape.box.center();
+    Vec3d first{};
+    std::array<double, 6> second{};
+    double volume = 0;
+    for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
+        std::array<Vec3d, 3> p = faces.corners(t);
+        for (Vec3d& corner : p) corner = corner - about;
+        const double area = 0.5 * length(cross(p[1] - p[0], p[2] - p[0]));
+        const Vec3d sum = p[0] + p[1] + p[2];
+        shape.area += area;
+        first = first + sum * (area / 3);
+        volume += dot(p[0], cross(p[1], p[2])) / 6;
+        const std::array<double, 6> whole = productOf(sum, sum);
+        for (const Vec3d& corner : p) {
+            const std::array<double, 6> own = productOf(corner, corner);
+            for (std::size_t m = 0; m < 6; ++m) second[m] += own[m] * (area / 12);
+        }
+        for (std::size_t m = 0; m < 6; ++m) second[m] += whole[m] * (area / 12);
+        shape.digest += digestOf(faces.triangles[t], *faces.parts);
+    }
+    const Vec3d center = shape.area > 0 ? first / shape.area : Vec3d{};
+    const std::array<double, 6> shift = productOf(center, center);
+    for (std::size_t m = 0; m < 6; ++m) shape.moments[m] = second[m] - shift[m] * shape.area;
+    shape.center = about + center;
+    if (shape.isSolid) shape.volume = volume;
+    shape.digest = std::max<std::uint64_t>(1, mixHash(shape.digest, std::bit_cast<std::uint64_t>(faces.parts->unit)));
+}
+
+bool isClosed(volume::Filling filling) noexcept {
+    return filling >= volume::Filling::Solid && filling <= volume::Filling::Capped;
+}
+
+}  // namespace
+
+std::vector<Shape> findShapes(const volume::SemanticVolume& volume, Vec3d offset) {
+    const std::vector<volume::Label>& labels = volume.labels.labels;
+    const std::vector<Triangle>& triangles = volume.vectors.triangles;
+    std::vector<Shape> shapes;
+    bool needsBoxes = false;
+    auto begin = triangles.begin();
+    for (std::uint32_t l = 0; l < labels.size(); ++l) {
+        const auto end = std::find_if(begin, triangles.end(), [&](const Triangle& t) { return t.label != l; });
+        Shape shape;
+        shape.label = l;
+        shape.faces = {std::span(triangles).subspan(std::size_t(begin - triangles.begin()), std::size_t(end - begin)),
+                       &volume.vectors, offset};
+        begin = end;
+        if (shape.faces.triangles.empty() && labels[l].voxels == 0) continue;
+        shape.voxels = labels[l].voxels;
+        shape.isSolid = isClosed(labels[l].filling) && !shape.faces.triangles.empty();
+        shape.isCounted = !shape.isSolid && labels[l].filling != volume::Filling::Surface;
+        measureFaces(shape);
+        needsBoxes = needsBoxes || shape.faces.triangles.empty();
+        shapes.push_back(shape);
+    }
+    if (!needsBoxes) return shapes;
+    const std::vector<Box3d> boxes = analyze::labelWorldBoxes(volume);
+    const Vec3d origin = volume.grid.origin() - offset;
+    for (Shape& shape : shapes)
+        if (shape.faces.triangles.empty()) {
+            const Box3d& box = boxes[shape.label];
+            if (box.isEmpty()) continue;
+            shape.box = {box.min - origin, box.max - origin};
+            shape.center = shape.box.center();
+            shape.digest = 0;
+        }
+    return shapes;
+}
+
+bool areAlike(const Shape& a, const Shape& b, double tolerance) noexcept {
+    if (a.isSolid != b.isSolid || a.faces.triangles.empty() != b.faces.triangles.empty()) return false;
+    if (a.faces.triangles.empty()) return a.voxels == b.voxels && length(a.box.size() - b.box.size()) <= tolerance;
+    if (a.digest == b.digest) return true;
+    const double size = std::max(length(a.box.size()), length(b.box.size())) + tolerance;
+    // A face that moves by the tolerance changes the area by about the tolerance times its edges.
+    const double areaOff = tolerance * size * 8 + 1e-9 * (a.area + b.area);
+    if (std::abs(a.area - b.area) > areaOff) return false;
+    for (std::size_t m = 0; m < 6; ++m)
+        if (std::abs(a.moments[m] - b.moments[m]) > areaOff * size * size) return false;
+    return !a.volume || std::abs(*a.volume - *b.volume) <= tolerance * (a.area + b.area) + 1e-9 * std::abs(*a.volume);
+}
+
+bool areAtOnePlace(const Shape& a, const Shape& b, double tolerance) noexcept {
+    if (!areAlike(a, b, tolerance)) return false;
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::abs(a.center[axis] - b.center[axis]) > tolerance ||
+            std::abs(a.box.min[axis] - b.box.min[axis]) > tolerance ||
+            std::abs(a.box.max[axis] - b.box.max[axis]) > tolerance)
+            return false;
+    return true;
+}
+
+}  // namespace svt::compare

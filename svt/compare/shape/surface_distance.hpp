@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// How far faces are from the faces of another object.
+
+#include <svt/compare/shape/shapes.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace svt::compare {
+
+/// A tree of boxes over the triangles of one object. Thread-safe to read.
+class FaceTree {
+public:
+    /// Cost: O(n log n) for n triangles.
+    explicit FaceTree(const Faces& faces);
+
+    /// Distance from a point to the nearest triangle, metres; infinite without triangles.
+    /// \param enough  the search ends at a triangle within this distance, and returns its distance
+    /// Cost: O(log n) where the triangles are spread in space.
+    [[nodiscard]] double distanceTo(Vec3d point, double enough = 0) const;
+
+private:
+    struct Node {
+        Box3d box;
+        std::uint32_t first = 0, count = 0;  ///< of triangles; count 0: the children are the next node and `first`
+    };
+    std::uint32_t build(std::uint32_t first, std::uint32_t count);
+
+    std::vector<std::array<Vec3d, 3>> triangles_;
+    std::vector<Node> nodes_;
+};
+
+/// The largest distance from points on `faces` to `other`: corners, midpoints of edges, and centres of all triangles, so
+/// at most the directed Hausdorff distance.
+/// \param shift  added to all points
+/// \param step   metres between further points on each triangle; 0: none
+[[nodiscard]] double largestDistance(const Faces& faces, const FaceTree& other, Vec3d shift = {}, double step = 0);
+
+}  // namespace svt::compare

@@ -1,0 +1,120 @@
+// `svt diff`: two states of a building, on generated models.
+#include "../run_command.hpp"
+#include "../small_model.hpp"
+
+#include <svt/core/test_data_test.hpp>
+
+#include <string>
+
+namespace svt::test {
+namespace {
+
+using nlohmann::json;
+
+class Diff : public ::testing::Test {
+protected:
+    void sample(const std::string& file, std::vector<std::string> more) {
+        more.insert(more.begin(), {"sample", "tower", "-o", file});
+        runSvtWell(folder.path(), more);
+    }
+    CommandResult diff(const std::string& was, const std::string& is, std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"diff", was, is, "--spacing", "0.2"});
+        return runSvt(folder.path(), more);
+    }
+    TemporaryFolder folder;
+};
+
+TEST_F(Diff, OfOneModelIsEmpty) {
+    sample("a.gml", {"--storeys", "1"});
+    const CommandResult result = diff("a.gml", "a.gml");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(result.out.find("changed"), std::string::npos) << result.out;
+}
+
+// The same building in another format has other ids and attributes, and no change in space.
+TEST_F(Diff, IgnoresTheFormat) {
+    sample("a.gml", {"--storeys", "1"});
+    sample("b.ifc", {"--storeys", "1", "--format", "ifc"});
+    const CommandResult result = diff("a.gml", "b.ifc", {"--json"});
+    ASSERT_EQ(result.exitCode, 7) << result.err;
+    const json compared = result.json();
+    std::size_t objects = 0, others = 0;
+    for (const json& row : compared["rows"]) {
+        if (!row["geometry"].get<bool>() || row["old"].empty() || row["new"].empty()) continue;
+        ++objects;
+        EXPECT_FALSE(row["attributes"].empty() && row["properties"].empty()) << row;
+        if (row["change"] == "same" || row["change"] == "reassigned") continue;
+        ++others;
+    }
+    EXPECT_GT(objects, 50u);
+    EXPECT_EQ(others, 0u);
+}
+
+TEST_F(Diff, CountsANewStorey) {
+    sample("a.gml", {"--storeys", "1"});
+    sample("b.gml", {"--storeys", "2"});
+    const json compared = diff("a.gml", "b.gml", {"--json"}).json();
+    // The rooms of the new storey repeat those of the others.
+    std::size_t rooms = 0;
+    double added = 0;
+    for (const json& row : compared["rows"])
+        if (row["change"] == "added" && row["class"] == "BuildingRoom") {
+            ++rooms;
+            added += row["added"].get<double>();
+            EXPECT_TRUE(row["exact"].get<bool>());
+        }
+    EXPECT_GT(rooms, 0u);
+    double total = 0;
+    for (const json& room :
+         runSvtForJson(folder.path(), {"query", "b.gml", "class=BuildingRoom", "--spacing", "0.2", "--json"}))
+        total += room["volume"].get<double>();
+    for (const json& room :
+         runSvtForJson(folder.path(), {"query", "a.gml", "class=BuildingRoom", "--spacing", "0.2", "--json"}))
+        total -= room["volume"].get<double>();
+    EXPECT_NEAR(added, total, 1e-3 * total);
+}
+
+TEST_F(Diff, WritesTablesAndAVolume) {
+    std::string other = twoBoxes();
+    for (std::size_t at = 0; (at = other.find("right", at)) != std::string::npos;) other.replace(at, 5, "other");
+    writeText(folder / "two.gml", twoBoxes());
+    writeText(folder / "one.gml", other);
+    const CommandResult result = runSvt(folder.path(), {"diff", "two.gml", "one.gml", "--spacing", "0.1", "-o", "d.csv",
+                                                        "-o", "d.json", "-o", "d.svt"});
+    EXPECT_EQ(result.exitCode, 0) << result.err;  // other ids are not a difference
+    EXPECT_NE(readText(folder / "d.csv").find("same"), std::string::npos);
+    const json written = json::parse(readText(folder / "d.json"));
+    EXPECT_EQ(written["summary"]["changes"]["same"], 2);
+    EXPECT_FALSE(written["summary"]["different"].get<bool>());
+    const json rows = runSvtForJson(folder.path(), {"query", "d.svt", "class=Building", "--json"});
+    EXPECT_EQ(rows.size(), 2u);
+}
+
+TEST_F(Diff, AlignsShiftedModels) {
+    const auto modelAt = [](double x, double y, double z) {
+        std::string members;
+        for (int n = 0; n < 3; ++n)
+            members +=
+                building("b" + std::to_string(n), solid(boxFaces(x + 10 * n, y, z, x + 10 * n + 4 + n, y + 6, z + 3)));
+        return cityModel(members);
+    };
+    writeText(folder / "a.gml", modelAt(500000, 5400000, 100));
+    writeText(folder / "b.gml", modelAt(500030.03, 5400000, 150));
+    EXPECT_EQ(diff("a.gml", "b.gml").exitCode, 7);
+    const CommandResult aligned = diff("a.gml", "b.gml", {"--align", "translation"});
+    EXPECT_EQ(aligned.exitCode, 0) << aligned.out;
+    EXPECT_NE(aligned.err.find("is moved by -30.0300, "), std::string::npos) << aligned.err;
+}
+
+TEST_F(Diff, RefusesWhatCannotBeCompared) {
+    sample("a.gml", {"--storeys", "1"});
+    writeText(folder / "bad.gml", "<broken");
+    EXPECT_EQ(diff("a.gml", "bad.gml").exitCode, 3);
+    EXPECT_EQ(diff("a.gml", "missing.gml").exitCode, 3);
+    EXPECT_EQ(diff("a.gml", "a.gml", {"--tolerance", "0"}).exitCode, 2);
+    EXPECT_EQ(diff("a.gml", "a.gml", {"-o", "d.png"}).exitCode, 2);
+    EXPECT_EQ(diff("a.gml", "a.gml", {"-o", "a.gml"}).exitCode, 2);
+}
+
+}  // namespace
+}  // namespace svt::test
