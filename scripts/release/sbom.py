@@ -41,6 +41,7 @@ LIBRARIES = {
     "pugixml": Library("MIT", "linked"),
     "simdjson": Library("Apache-2.0", "linked"),
     "zlib": Library("Zlib", "linked"),
+    "brotli": Library("MIT", "loaded"),
     "cairo": Library("LGPL-2.1-only OR MPL-1.1", "loaded"),
     "curl": Library("curl", "loaded"),
     "fribidi": Library("LGPL-2.1-or-later", "loaded"),

@@ -194,16 +194,16 @@ Result<Json> parse(const Checked& file, std::string_view text) {
 
 Result<std::optional<std::vector<DefaultValue>>> readConfig(const fs::path& path, ConfigOwner owner,
                                                             const CommandText& command) {
-    using Defaults = std::optional<std::vector<DefaultValue>>;
+    using Values = std::optional<std::vector<DefaultValue>>;
     std::error_code ignored;
     const fs::file_type type = fs::symlink_status(path, ignored).type();
     // A folder that cannot be searched has no file for this user.
-    if (type == fs::file_type::not_found || type == fs::file_type::none) return Defaults();
+    if (type == fs::file_type::not_found || type == fs::file_type::none) return Values();
     const Checked file{path, owner};
     const auto bytes = FileBytes::read(path, kMaxConfigBytes);
     if (!bytes) return file.wrong("", bytes.error().message());
     SVT_TRY(json, parse(file, bytes->text()));
-    if (json->contains("format") && (*json)["format"] == "svt") return Defaults();  // the header of an unpacked .svt
+    if (json->contains("format") && (*json)["format"] == "svt") return Values();  // the header of an unpacked .svt
     std::vector<DefaultValue> defaults;
     const auto take = [&](bool isForAll) -> Result<void> {
         for (const auto& item : json->items())
@@ -214,7 +214,7 @@ Result<std::optional<std::vector<DefaultValue>>> readConfig(const fs::path& path
     SVT_DO(take(false));
     SVT_DO(take(true));
     SVT_DO(checkPairs(file, defaults));
-    return Defaults(std::move(defaults));
+    return Values(std::move(defaults));
 }
 
 }  // namespace svt::cli
