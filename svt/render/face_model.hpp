@@ -52,6 +52,7 @@ public:
     /// thick. Cost: O(log(triangles) * crossings up to the end of the walk).
     void walk(const volume::BrickVolume& bricks, const VoxelRay& ray, double metresPerT, double from, double to,
               RunVisitor& visitor) const override;
+    [[nodiscard]] std::unique_ptr<PointCaster> makeCaster(const PreparedFrame& frame) const override;
 
     struct Data;
 

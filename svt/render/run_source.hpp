@@ -7,8 +7,12 @@
 #include <svt/volume/brick_volume.hpp>
 
 #include <cstdint>
+#include <memory>
 
 namespace svt::render {
+
+class PointCaster;
+struct PreparedFrame;
 
 /// The start of a run.
 struct RunStart {
@@ -44,6 +48,8 @@ public:
     /// \param metresPerT  metres per unit of the ray's parameter
     virtual void walk(const volume::BrickVolume& bricks, const VoxelRay& ray, double metresPerT, double from, double to,
                       RunVisitor& visitor) const = 0;
+    /// The caster of its rays: packets know only bricks.
+    [[nodiscard]] virtual std::unique_ptr<PointCaster> makeCaster(const PreparedFrame& frame) const = 0;
 };
 
 }  // namespace svt::render

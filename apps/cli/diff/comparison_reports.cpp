@@ -149,7 +149,12 @@ Table comparisonTable(const Compared& compared, bool hasAll, std::size_t mostPro
         if (!hasAll && !row.isDifferent()) continue;
         const Subject subject = subjectOf(row, was, is);
         const volume::Label& label = (*subject.features)[subject.label];
-        Row cells{nameOf(row.change), label.className, was.ids(row.was), is.ids(row.is), label.name};
+        Row cells;
+        cells.emplace_back(nameOf(row.change));
+        cells.emplace_back(label.className);
+        cells.emplace_back(was.ids(row.was));
+        cells.emplace_back(is.ids(row.is));
+        cells.emplace_back(label.name);
         const std::string storey = subject.features->storeyOf(subject.label);
         cells.push_back(storey.empty() ? Cell() : Cell(storey));
         for (int axis = 0; axis < 3; ++axis)

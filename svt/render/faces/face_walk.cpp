@@ -1,5 +1,6 @@
 #include <svt/render/face_model.hpp>
 #include <svt/render/faces/face_data.hpp>
+#include <svt/render/plain/sample_caster.hpp>
 #include <svt/render/walk/run_walk.hpp>
 
 #include <algorithm>
@@ -270,5 +271,7 @@ void FaceModel::walk(const volume::BrickVolume& bricks, const VoxelRay& ray, dou
     if (data_->hasVoxels) walkRuns(bricks, ray, from, to, voxels);
     FaceWalk(*data_, bricks, ray, metresPerT, from, to, visitor).walk(voxels.parts());
 }
+
+std::unique_ptr<PointCaster> FaceModel::makeCaster(const PreparedFrame& frame) const { return makeSampleCaster(frame); }
 
 }  // namespace svt::render

@@ -1,6 +1,7 @@
 #include <svt/core/parallel.hpp>
 #include <svt/image/color.hpp>
 #include <svt/render/picture/tile_renderer.hpp>
+#include <svt/render/plain/sample_caster.hpp>
 #include <svt/render/ray_caster.hpp>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 
 namespace svt::render {
@@ -125,15 +127,26 @@ Result<PreparedFrame> prepareFrame(std::span<const DrawnVolume> volumes, const F
     return frame;
 }
 
+// The volume whose runs do not come from its bricks; null: all do.
+const RunSource* sourceOf(const PreparedFrame& frame) {
+    for (const auto& volume : frame.volumes)
+        if (volume.source != nullptr) return volume.source;
+    return nullptr;
+}
+
+// \param makeReference  null: packets, where the frame allows them
 Result<Frame> castFrame(std::span<const DrawnVolume> volumes, const FrameSpec& spec, const CastOptions& options,
-                        bool isReference) {
+                        MakePointCaster makeReference) {
     SVT_DO(checkCall(volumes, spec, options));
-    SVT_TRY(prepared, prepareFrame(volumes, spec, options, isReference));
+    SVT_TRY(prepared, prepareFrame(volumes, spec, options, makeReference != nullptr));
     const PreparedFrame& frame = *prepared;
-    const bool isByPackets = !isReference && std::none_of(frame.volumes.begin(), frame.volumes.end(),
-                                                          [](const auto& volume) { return volume.source != nullptr; });
+    const RunSource* source = sourceOf(frame);
+    const auto makeCaster = [&]() -> std::unique_ptr<PointCaster> {
+        if (makeReference != nullptr) return makeReference(frame);
+        return source != nullptr ? source->makeCaster(frame) : nullptr;
+    };
     std::optional<PacketPasses> packets;
-    if (isByPackets) packets.emplace(frame);
+    if (makeReference == nullptr && source == nullptr) packets.emplace(frame);
     Frame picture;
     // In parallel: the time to touch new memory matters in fast frames.
     parallelFor(3, 1, options.threads, [&](std::size_t begin, std::size_t end) {
@@ -149,7 +162,7 @@ Result<Frame> castFrame(std::span<const DrawnVolume> volumes, const FrameSpec& s
     std::atomic<bool> isCancelled{false};
     ProgressCounter progress(options.progress, "render", tilesX * tilesY);
     parallelFor(tilesX * tilesY, 4, options.threads, [&](std::size_t begin, std::size_t end) {
-        TileRenderer renderer(frame, packets ? &*packets : nullptr, picture);
+        TileRenderer renderer(frame, packets ? &*packets : nullptr, makeCaster(), picture);
         for (std::size_t tile = begin; tile < end; ++tile) {
             if (Progress::isCancelled(options.progress)) {
                 isCancelled = true;
@@ -167,12 +180,12 @@ Result<Frame> castFrame(std::span<const DrawnVolume> volumes, const FrameSpec& s
 }  // namespace
 
 Result<Frame> castRays(std::span<const DrawnVolume> volumes, const FrameSpec& spec, const CastOptions& options) {
-    return castFrame(volumes, spec, options, false);
+    return castFrame(volumes, spec, options, nullptr);
 }
 
 Result<Frame> castRaysReference(std::span<const DrawnVolume> volumes, const FrameSpec& spec,
                                 const CastOptions& options) {
-    return castFrame(volumes, spec, options, true);
+    return castFrame(volumes, spec, options, makeSampleCaster);
 }
 
 int levelForView(const FrameSpec& spec, const volume::Grid& grid, int coarsest) {

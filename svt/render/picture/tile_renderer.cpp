@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace svt::render {
 namespace {
@@ -31,10 +32,11 @@ SampleLayout::SampleLayout(const FrameSpec& spec)
       margin(spec.borders.strength > 0 ? std::max(lineReach, cutReach > 1 ? 2 * cutReach : 1) : 0),
       pixelMargin((margin + side - 1) / side + 1) {}
 
-TileRenderer::TileRenderer(const PreparedFrame& frame, const PacketPasses* packets, Frame& picture)
+TileRenderer::TileRenderer(const PreparedFrame& frame, const PacketPasses* packets, std::unique_ptr<PointCaster> caster,
+                           Frame& picture)
     : frame_(frame),
       picture_(picture),
-      caster_(frame),
+      caster_(std::move(caster)),
       isAdaptive_(frame.isAdaptive && !frame.isReference),
       layout_(frame.spec),
       stride_(kTilePixels * layout_.side + 2 * layout_.margin),
@@ -90,7 +92,7 @@ void TileRenderer::castSamples() {
     }
     for (std::int32_t y = -layout_.margin; y < tileHeight_ * layout_.side + layout_.margin; ++y)
         for (std::int32_t x = -layout_.margin; x < tileWidth_ * layout_.side + layout_.margin; ++x)
-            samples_[at(x, y)] = caster_.cast(horizontal(x + 0.5), vertical(y + 0.5), true);
+            samples_[at(x, y)] = caster_->cast(horizontal(x + 0.5), vertical(y + 0.5), true);
 }
 
 void TileRenderer::castGrid(const RayGrid& grid, std::vector<Sample>& samples) {
@@ -103,7 +105,7 @@ void TileRenderer::castGrid(const RayGrid& grid, std::vector<Sample>& samples) {
         for (std::int32_t y = 0; y < grid.height; ++y)
             for (std::int32_t x = 0; x < grid.width; ++x)
                 samples[static_cast<std::size_t>(x + y * grid.stride)] =
-                    caster_.cast(columns_[static_cast<std::size_t>(x)], rows_[static_cast<std::size_t>(y)], true);
+                    caster_->cast(columns_[static_cast<std::size_t>(x)], rows_[static_cast<std::size_t>(y)], true);
         return;
     }
     const auto castBlock = [&](std::int32_t x0, std::int32_t y0) {
@@ -147,7 +149,7 @@ void TileRenderer::castAdaptively() {
                     }
                     const double u = horizontal(sx + 0.5), v = vertical(sy + 0.5);
                     if (!packets_) {
-                        samples_[at(sx, sy)] = caster_.cast(u, v, true);
+                        samples_[at(sx, sy)] = caster_->cast(u, v, true);
                         continue;
                     }
                     packets_->add(u, v, at(sx, sy));
@@ -209,7 +211,7 @@ void TileRenderer::castCenters() {
     for (std::int32_t y = 0; y < tileHeight_; ++y)
         for (std::int32_t x = 0; x < tileWidth_; ++x)
             centers_[static_cast<std::size_t>(x + y * tileWidth_)] =
-                caster_.cast(horizontal(x * layout_.side + middle), vertical(y * layout_.side + middle), false);
+                caster_->cast(horizontal(x * layout_.side + middle), vertical(y * layout_.side + middle), false);
 }
 
 void TileRenderer::findLines() {

@@ -4,12 +4,13 @@
 
 #include <svt/image/color.hpp>
 #include <svt/render/packet/packet_caster.hpp>
-#include <svt/render/plain/sample_caster.hpp>
+#include <svt/render/plain/point_caster.hpp>
 #include <svt/render/ray_caster.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -34,8 +35,10 @@ struct SampleLayout {
 /// Renders tiles; keeps its buffers between them. Not thread-safe: one per thread.
 class TileRenderer {
 public:
-    /// \param packets  null: casts ray by ray, with the plain caster
-    TileRenderer(const PreparedFrame& frame, const PacketPasses* packets, Frame& picture);
+    /// \param packets  null: rays are cast one by one
+    /// \param caster   of single rays; null with packets
+    TileRenderer(const PreparedFrame& frame, const PacketPasses* packets, std::unique_ptr<PointCaster> caster,
+                 Frame& picture);
 
     /// Renders the tile whose first pixel is (x, y), and writes its pixels of the picture only.
     void render(std::int32_t x, std::int32_t y);
@@ -90,7 +93,7 @@ private:
 
     const PreparedFrame& frame_;
     Frame& picture_;
-    SampleCaster caster_;
+    std::unique_ptr<PointCaster> caster_;  // null: packets
     bool isAdaptive_;
     std::optional<PacketCaster> packets_;
     SampleLayout layout_;

@@ -225,4 +225,8 @@ Sample SampleCaster::cast(double u, double v, bool withColor) {
     return joined;
 }
 
+std::unique_ptr<PointCaster> makeSampleCaster(const PreparedFrame& frame) {
+    return std::make_unique<SampleCaster>(frame);
+}
+
 }  // namespace svt::render

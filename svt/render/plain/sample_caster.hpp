@@ -2,8 +2,8 @@
 /// \file
 /// Casts rays one by one: walks the runs of a ray, lights and blends them.
 
-#include <svt/render/light/sample.hpp>
 #include <svt/render/light/surface_normal.hpp>
+#include <svt/render/plain/point_caster.hpp>
 #include <svt/render/prepare/prepared_frame.hpp>
 
 #include <memory>
@@ -13,15 +13,13 @@ namespace svt::render {
 class FragmentFinder;
 struct Fragments;
 
-/// The plain caster, against which the packet caster is tested. Not thread-safe: one per thread.
-class SampleCaster {
+/// The plain caster, against which the packet caster is tested.
+class SampleCaster final : public PointCaster {
 public:
     explicit SampleCaster(const PreparedFrame& frame);
-    ~SampleCaster();
+    ~SampleCaster() override;
 
-    /// Casts the ray through (u, v), see CameraRays::at().
-    /// \param withColor  false: label and depth only
-    [[nodiscard]] Sample cast(double u, double v, bool withColor);
+    [[nodiscard]] Sample cast(double u, double v, bool withColor) override;
 
 private:
     const PreparedFrame& frame_;
@@ -29,5 +27,7 @@ private:
     std::unique_ptr<FragmentFinder> finder_;
     std::unique_ptr<Fragments> fragments_;  // of the ray
 };
+
+[[nodiscard]] std::unique_ptr<PointCaster> makeSampleCaster(const PreparedFrame& frame);
 
 }  // namespace svt::render
