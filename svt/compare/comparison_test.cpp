@@ -1,6 +1,8 @@
 // Comparisons of generated models with known changes.
 #include <svt/compare/comparison.hpp>
 #include <svt/compare/difference_volume.hpp>
+#include <svt/compare/match/voxel_overlaps.hpp>
+#include <svt/compare/shape/surface_distance.hpp>
 
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/core/test_data_test.hpp>
@@ -292,6 +294,98 @@ TEST(DifferenceVolume, CountsTheSpaceThatChanged) {
     EXPECT_NEAR(volumeOfPart("column"), 0.4 * 0.4 * 3, 1e-9);
     EXPECT_NEAR(volumeOfPart("slab"), 4 * 5 * 0.3, 1e-9);
     EXPECT_EQ(difference->grid.dimension(), compared.was.grid.dimension() + (Vec3i{5, 0, 0}));
+}
+
+// A face that is off by 1 mm does not hide a move.
+TEST(Comparison, FindsMovesOfRoundedShapes) {
+    TestBox moved = kWall;
+    moved.min.y += 0.5;
+    moved.max.y += 0.5;
+    moved.max.x += 0.001;
+    const Compared compared({kWall, kSlab}, {moved, kSlab});
+    EXPECT_EQ(compared.row("wall").change, Change::Moved);
+}
+
+// A sheet that became two close ones has another shape, wherever it is.
+TEST(Comparison, DoesNotTakeADoubledSheetForAMovedOne) {
+    const auto sheets = [](double z, int count) {
+        model::BuildingModel model = modelOf({kSlab});
+        model::Geometry geometry;
+        for (int n = 0; n < count; ++n) {
+            model::Polygon polygon;
+            const double at = z + 0.001 * n;
+            polygon.points = {{0, 0, at}, {2, 0, at}, {2, 2, at}, {0, 2, at}};
+            polygon.ringEnds = {4};
+            geometry.surfaces.push_back({model.addPolygon(std::move(polygon)), false});
+        }
+        model::Feature feature;
+        feature.id = "sheet";
+        feature.className = "FloorSurface";
+        feature.geometries.push_back(std::move(geometry));
+        model.addFeature(std::move(feature), model::kNoFeature);
+        return model;
+    };
+    const auto was = volumeOf(sheets(1, 1)), is = volumeOf(sheets(1.5, 2), &was.grid);
+    const auto comparison = compareVolumes(was, is);
+    ASSERT_TRUE(comparison);
+    for (const ComparisonRow& row : comparison->rows)
+        if (!row.is.empty() && is.labels.labels[row.is[0]].id == "sheet") {
+            EXPECT_EQ(row.change, Change::Changed);
+        }
+}
+
+TEST(Shapes, DifferInDigestsOfAnyCorner) {
+    volume::SemanticVolume volume;
+    volume.labels.labels.resize(2);
+    for (std::uint32_t l = 0; l < 2; ++l) volume.labels.labels[l].subtreeEnd = l + 1;
+    volume.vectors.points = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {5, 5, 5}};
+    volume.vectors.triangles = {{0, {3, 1, 2}}, {1, {0, 1, 2}}};
+    const auto shapes = findShapes(volume, {});
+    ASSERT_EQ(shapes.size(), 2u);
+    EXPECT_NE(shapes[0].digest, shapes[1].digest);
+    volume.vectors.triangles[0].corners = {1, 2, 0};
+    const auto same = findShapes(volume, {});
+    EXPECT_EQ(same[0].digest, same[1].digest);
+}
+
+// Area and volume of a turned box are the same, but not its moments.
+TEST(Shapes, OfTurnedObjectsAreNotAlike) {
+    const auto volume = volumeOf(modelOf({{"a", "Column", {0, 0, 0}, {1, 2, 3}},
+                                          {"b", "Column", {5, 0, 0}, {7, 1, 3}},
+                                          {"c", "Column", {9, 0, 0}, {10, 2, 3}}}));
+    const auto shapes = findShapes(volume, {});
+    ASSERT_EQ(shapes.size(), 3u);
+    EXPECT_FALSE(areAlike(shapes[0], shapes[1], 0.01));
+    EXPECT_TRUE(areAlike(shapes[0], shapes[2], 0.01));
+}
+
+TEST(FaceTree, OfOneTriangleGivesItsDistance) {
+    volume::VectorParts parts;
+    parts.unit = 0x1p-10;
+    parts.points = {{0, 0, 0}, {1024, 0, 0}, {0, 1024, 0}};
+    parts.triangles = {{0, {0, 1, 2}}};
+    const FaceTree tree(Faces{parts.triangles, &parts, {}});
+    EXPECT_DOUBLE_EQ(tree.distanceTo({0.25, 0.25, 2}), 2);
+    EXPECT_DOUBLE_EQ(tree.distanceTo({-3, 0, 4}), 5);
+}
+
+TEST(VoxelOverlaps, CountOnlyPairsWithAWantedLabel) {
+    const Compared compared({kWall, kSlab}, {kWall, kSlab});
+    const auto label = [&](const std::string& id) {
+        for (std::uint32_t l = 0; l < compared.was.labels.labels.size(); ++l)
+            if (compared.was.labels.labels[l].id == id) return l;
+        return volume::kNoLabel;
+    };
+    std::vector<char> isWanted(compared.was.labels.labels.size(), 0);
+    isWanted[label("wall")] = 1;
+    const std::vector<char> none(isWanted.size(), 0);
+    for (const bool isOfWas : {true, false}) {
+        const VoxelOverlaps overlaps(compared.was, compared.is, isOfWas ? isWanted : none, isOfWas ? none : isWanted);
+        ASSERT_EQ(overlaps.entries().size(), 1u);
+        EXPECT_EQ(overlaps.entries()[0].was, label("wall"));
+        EXPECT_EQ(overlaps.of(label("wall"), label("wall")), compared.was.labels.labels[label("wall")].voxels);
+        EXPECT_EQ(overlaps.of(label("slab"), label("slab")), 0u);
+    }
 }
 
 TEST(EstimatedTranslation, IsThatOfMostObjects) {

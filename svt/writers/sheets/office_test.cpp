@@ -318,6 +318,20 @@ TEST(LevelMarks, TheHighestHasAPlaceNearAFloor) {
     EXPECT_GE(countTexts(house.sheets({.scale = 100, .paper = "A2"}, set), ".='+3.30'"), 6u);
 }
 
+TEST(FloorFinish, IsThatOfACoveringInTheRoom) {
+    volume::LabelTable table;
+    table.labels.resize(3);
+    table.labels[0].subtreeEnd = 2;
+    table.labels[1].subtreeEnd = 2;
+    table.labels[2].subtreeEnd = 3;
+    for (const std::size_t l : {1u, 2u}) {
+        table.labels[l].attributes = {{"predefinedType", std::string("FLOORING")},
+                                      {"material", std::string(l == 1 ? "Parquet" : "Tiles")}};
+    }
+    EXPECT_EQ(floorFinish(table, 0), "Parquet");
+    EXPECT_EQ(floorFinish(table, 2), "");
+}
+
 TEST(RoomStamps, HaveNumberHeightAndFloorFinish) {
     House house;
     volume::Label& room = house.add("room", "BuildingRoom", {0, 0, 0}, {6, 5, 2.5});
@@ -645,7 +659,9 @@ TEST(GroundLine, WhatLiesBelowItIsHidden) {
         for (const drawing::BeyondLine& line : drawn.beyond) {
             const double middle = 0.5 * (line.from.v + line.to.v);
             EXPECT_EQ(line.kind == drawing::BeyondKind::Hidden, middle < zero - 0.01) << middle;
-            if (line.kind == drawing::BeyondKind::Hidden) EXPECT_EQ(isAround[line.label], 0);
+            if (line.kind == drawing::BeyondKind::Hidden) {
+                EXPECT_EQ(isAround[line.label], 0);
+            }
             hidden += line.kind == drawing::BeyondKind::Hidden ? 1 : 0;
         }
         EXPECT_EQ(hidden >= 3, !hasTerrain);
