@@ -78,7 +78,6 @@ void GeometryMeasurer::measureVoxels(const Match& match, ComparisonRow& row) con
     for (const std::uint32_t s : match.was)
         for (const std::uint32_t t : match.is)
             common += double(voxels_.of(sides_.wasShapes[s].label, sides_.isShapes[t].label));
-    const Vec3d spacing = sides_.was.grid.spacing();
     const double voxel = (match.is.empty() ? sides_.was.grid : sides_.is.grid).voxelVolume();
     row.added = (is - common) * voxel;
     row.removed = (was - common) * voxel;
