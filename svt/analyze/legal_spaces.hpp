@@ -82,8 +82,8 @@ enum class SpaceRelationKind : std::uint8_t {
 struct SpaceRelation {
     SpaceRelationKind kind = SpaceRelationKind::Overlap;
     std::uint32_t a = 0, b = 0;            ///< indices into LegalSpaces::spaces, a < b
-    std::optional<double> volume;          ///< of an overlap, m3
-    std::optional<double> area;            ///< of shared faces, or of the faces at a gap, m2
+    std::optional<double> volume{};        ///< of an overlap, m3
+    std::optional<double> area{};          ///< of shared faces, or of the faces at a gap, m2
     double narrowest = 0, widest = 0;      ///< of a gap, metres
     double bound = 0;                      ///< m3 by which the volume may be off; infinite: counted in voxels
     bool isExact = false;                  ///< both bodies are solids

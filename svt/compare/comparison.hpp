@@ -101,8 +101,9 @@ struct Comparison {
     std::vector<ComparisonRow> rows;                 ///< by new label, then removed objects by old label
     std::array<std::size_t, kChangeCount> counts{};  ///< objects with geometry, by Change
     std::size_t otherProperties = 0;                 ///< rows whose class, name, storey or attributes differ
-    bool isOnOneLattice = false;  ///< the samples of both grids coincide; else voxels give no volumes
-    bool isComplete = true;       ///< false: the work did not suffice for all exact volumes
+    bool isReferenceSystemUnknown = false;  ///< of one volume, or of two with different names: coordinates are compared
+    bool isOnOneLattice = false;            ///< the samples of both grids coincide; else voxels give no volumes
+    bool isComplete = true;                 ///< false: the work did not suffice for all exact volumes
 
     [[nodiscard]] bool isDifferent() const noexcept;
 };

@@ -222,7 +222,7 @@ std::vector<std::uint32_t> labelsByPriority(const volume::LabelTable& table) {
     keys.reserve(table.labels.size());
     for (std::uint32_t l = 0; l < table.labels.size(); ++l) {
         const volume::Label& label = table.labels[l];
-        const bool isSolid = label.filling >= volume::Filling::Solid && label.filling <= volume::Filling::Capped;
+        const bool isSolid = volume::hasClosedMesh(label.filling);
         const double size = isSolid && label.volume > 0 ? label.volume : 0;
         keys.emplace_back(rankOf(label), !isSolid, size, label.id, l);
     }

@@ -29,6 +29,11 @@ enum class Filling : std::uint8_t {
     Surface,       ///< no solid meaning: a sheet, one voxel thick
     Body           ///< boundary surface with the material behind it (thematic body)
 };
+/// Whether the mesh of the object is closed: as read, up to T-junctions, by shared faces, or by caps. Then its volume is
+/// exact.
+[[nodiscard]] constexpr bool hasClosedMesh(Filling filling) noexcept {
+    return filling >= Filling::Solid && filling <= Filling::Capped;
+}
 [[nodiscard]] std::string_view fillingName(Filling filling) noexcept;  ///< "solid", "t-junctions", ...
 [[nodiscard]] bool fillingFromName(std::string_view name, Filling& filling) noexcept;
 

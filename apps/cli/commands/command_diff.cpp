@@ -14,6 +14,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace svt::cli {
 namespace {
 
@@ -31,13 +33,28 @@ struct DiffArguments {
     bool json = false, csv = false, all = false, verbose = false;
 };
 
-// The new volume, on the sample positions of a grid.
-Result<volume::SemanticVolume> loadNew(const DiffArguments& arguments, const volume::Grid& grid,
-                                       const Progress* progress, bool isVerbose) {
+// A state with meshes, a model on the sample positions of `grid` if that is not null.
+Result<volume::SemanticVolume> loadState(const std::filesystem::path& file, const DiffArguments& arguments,
+                                         const volume::Grid* grid, const Progress* progress, bool isVerbose) {
     pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
-    build.extendsGrid = true;
-    return loadVolume(arguments.is, build, progress, isVerbose, &grid);
+    build.extendsGrid = grid != nullptr;
+    return loadVolume(file, build, progress, isVerbose, grid);
+}
+
+struct States {
+    volume::SemanticVolume was, is;
+};
+
+// Both states, on the samples of a .svt if there is one, else on those of the old state.
+Result<States> loadStates(const DiffArguments& arguments, const Progress* progress) {
+    const bool isNewFirst = volume::isSvtFile(arguments.is) && !volume::isSvtFile(arguments.was);
+    const std::filesystem::path& first = isNewFirst ? arguments.is : arguments.was;
+    const std::filesystem::path& second = isNewFirst ? arguments.was : arguments.is;
+    SVT_TRY(one, loadState(first, arguments, nullptr, progress, arguments.verbose));
+    SVT_TRY(other, loadState(second, arguments, &one->grid, progress, arguments.verbose));
+    if (isNewFirst) std::swap(*one, *other);
+    return States{std::move(*one), std::move(*other)};
 }
 
 // Moves the new volume to the old one. The offset is reported, so that nobody takes a shifted model for a changed one, or
@@ -59,7 +76,7 @@ Result<void> align(const DiffArguments& arguments, const volume::SemanticVolume&
     const volume::Grid& grid = was.grid;
     SVT_TRY(shifted, volume::Grid::fromParts(grid.dimension(), grid.spacing(), grid.origin() + *offset, grid.axes()));
     if (!volume::isSvtFile(arguments.is)) {
-        SVT_TRY(again, loadNew(arguments, *shifted, progress, false));
+        SVT_TRY(again, loadState(arguments.is, arguments, &*shifted, progress, false));
         is = std::move(*again);
     }
     SVT_TRY(moved, compare::translated(is, -*offset));
@@ -78,15 +95,18 @@ Box3d boxOf(const volume::Grid& grid) {
 }
 
 void printNotes(const Compared& compared) {
+    if (compared.comparison.isReferenceSystemUnknown)
+        note("the reference system of a model is unknown; the coordinates are compared as they are");
     const auto withoutFaces = [](const volume::SemanticVolume& volume) { return volume.vectors.triangles.empty(); };
     if (withoutFaces(compared.was) || withoutFaces(compared.is))
         note("a volume has no meshes, so voxels decide; build it with --vectors meshes for exact volumes");
     if (!boxOf(compared.was.grid).overlaps(boxOf(compared.is.grid)))
-        note("the models have no place in common; to compare them at one place, use --align translation");
+        note("the models do not overlap in space; to compare them at one place, use --align translation");
     if (!compared.comparison.isOnOneLattice)
         note(
-            "the samples of both volumes do not coincide: objects without closed meshes have no volumes; give models, "
-            "or build the new volume from its model in this command");
+            "the two volumes have different sample positions, so objects without closed meshes have no volumes; give "
+            "one "
+            "state as a model file");
     if (!compared.comparison.isComplete)
         note("some pairs of objects have too many faces for exact volumes; their volumes come from voxels");
 }
@@ -111,16 +131,14 @@ Result<int> runDiff(const DiffArguments& arguments) {
             return Error(Code::BadArgument,
                          "'" + input.string() + "' is a city; compare parts of it (svt city extract)");
     const TerminalProgress progress;
-    pipeline::BuildOptions build = arguments.build;
-    build.vectors.meshes = true;
-    SVT_TRY(was, loadVolume(arguments.was, build, progress.get(), arguments.verbose));
-    SVT_TRY(is, loadNew(arguments, was->grid, progress.get(), arguments.verbose));
-    SVT_DO(align(arguments, *was, progress.get(), *is));
+    SVT_TRY(states, loadStates(arguments, progress.get()));
+    volume::SemanticVolume &was = states->was, &is = states->is;
+    SVT_DO(align(arguments, was, progress.get(), is));
     compare::CompareOptions options = arguments.options;
     options.threads = arguments.build.threads;
     options.progress = progress.get();
-    SVT_TRY(comparison, compare::compareVolumes(*was, *is, options));
-    const Compared compared{*was, *is, *comparison};
+    SVT_TRY(comparison, compare::compareVolumes(was, is, options));
+    const Compared compared{was, is, *comparison};
     printNotes(compared);
     for (const std::filesystem::path& output : arguments.outputs) SVT_DO(writeOutput(output, compared));
     TerminalProgress::hide();

@@ -92,7 +92,7 @@ private:
     const volume::BrickVolume* drawn_ = nullptr;
 };
 
-// Sets the finest level for every pass without a level. OpenGL and exact surfaces draw only this level.
+// Passes without a level get the finest one. OpenGL and exact surfaces draw no other level.
 void takeFinest(illustrate::Scene& scene) {
     for (illustrate::ScenePass& pass : scene.passes)
         if (!pass.representation.level) pass.representation.level = 0;

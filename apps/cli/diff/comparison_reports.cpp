@@ -106,7 +106,7 @@ Json rowJson(const ComparisonRow& row, const Features& was, const Features& is) 
 struct ClassSums {
     std::string className;
     std::size_t objects = 0, unknown = 0;
-    double added = 0, removed = 0;
+    std::optional<double> added{}, removed{};  // of the objects whose volumes are known
 };
 std::vector<ClassSums> sumsByClass(const Compared& compared) {
     std::vector<ClassSums> sums;
@@ -119,8 +119,8 @@ std::vector<ClassSums> sumsByClass(const Compared& compared) {
         if (at == sums.end()) at = sums.insert(sums.end(), ClassSums{label.className});
         ++at->objects;
         if (!row.added && !row.removed) ++at->unknown;
-        at->added += row.added.value_or(0);
-        at->removed += row.removed.value_or(0);
+        if (row.added) at->added = at->added.value_or(0) + *row.added;
+        if (row.removed) at->removed = at->removed.value_or(0) + *row.removed;
     }
     return sums;
 }
@@ -182,8 +182,8 @@ Json comparisonJson(const Compared& compared) {
     for (const ClassSums& sums : sumsByClass(compared))
         classes.push_back({{"class", sums.className},
                            {"objects", sums.objects},
-                           {"added", withoutRounding(sums.added)},
-                           {"removed", withoutRounding(sums.removed)},
+                           {"added", jsonOf(sums.added)},
+                           {"removed", jsonOf(sums.removed)},
                            {"withoutVolume", sums.unknown}});
     summary["complete"] = compared.comparison.isComplete;
     return json;

@@ -9,7 +9,6 @@
 namespace svt::analyze {
 namespace {
 
-using volume::Filling;
 using volume::kNoLabel;
 
 // The volume that a closed mesh encloses.
@@ -51,8 +50,8 @@ BodyMaker::BodyMaker(const volume::SemanticVolume& volume, const Extents& extent
 }
 
 bool BodyMaker::hasSolid(std::uint32_t label) const noexcept {
-    const Filling filling = volume_.labels.labels[label].filling;
-    return filling >= Filling::Solid && filling <= Filling::Capped && firstTriangle_[label] < firstTriangle_[label + 1];
+    return volume::hasClosedMesh(volume_.labels.labels[label].filling) &&
+           firstTriangle_[label] < firstTriangle_[label + 1];
 }
 
 std::vector<SpaceTriangle> BodyMaker::trianglesOf(std::uint32_t label) const {

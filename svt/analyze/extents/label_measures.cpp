@@ -8,13 +8,6 @@ namespace svt::analyze {
 
 namespace {
 
-// Whether the voxels are those of a closed mesh, whose volume is exact.
-bool isClosedSolid(volume::Filling filling) noexcept {
-    using volume::Filling;
-    return filling == Filling::Solid || filling == Filling::TJunctions || filling == Filling::Complemented ||
-           filling == Filling::Capped;
-}
-
 // Entry per label: the number of voxels of the sheets that bound it, which lie inside of it. Sheets below a sheet, such
 // as windows, count with it.
 std::vector<std::uint64_t> voxelsOfSheets(const std::vector<volume::Label>& labels) {
@@ -45,7 +38,7 @@ std::vector<Measure> ownMeasures(const volume::LabelTable& table, const volume::
         measure.voxels = label.voxels;
         if (hasLost[l] == 0 && label.voxels > 0 && label.volume > 0) {
             measure.volume = label.volume;
-            if (!isClosedSolid(label.filling)) measure.countedVolume = label.volume;
+            if (!volume::hasClosedMesh(label.filling)) measure.countedVolume = label.volume;
         } else if ((label.count > 0 || label.voxels > 0) && label.filling != volume::Filling::Surface) {
             // The inside of an open shell does not include voxels that only draw its faces.
             const bool isOpen = label.filling == volume::Filling::Winding;
@@ -71,7 +64,7 @@ std::vector<Measure> measureLabels(const volume::SemanticVolume& volume, const s
 }
 
 std::optional<double> solidVolumeOf(const volume::Label& label) noexcept {
-    if (!isClosedSolid(label.filling) || !(label.volume > 0)) return {};
+    if (!volume::hasClosedMesh(label.filling) || !(label.volume > 0)) return {};
     return label.volume;
 }
 

@@ -13,11 +13,7 @@ using volume::Filling;
 
 bool isBuilding(const volume::Label& label) { return model::classRank(label.className) == model::ClassRank::Building; }
 
-bool isClosed(Filling filling) noexcept {
-    return filling == Filling::Solid || filling == Filling::TJunctions || filling == Filling::Complemented ||
-           filling == Filling::Capped;
-}
-bool isSolid(Filling filling) noexcept { return isClosed(filling) || filling == Filling::Winding; }
+bool isSolid(Filling filling) noexcept { return volume::hasClosedMesh(filling) || filling == Filling::Winding; }
 
 }  // namespace
 
@@ -40,7 +36,7 @@ std::uint32_t PlanFaces::groupOf(std::uint32_t label, std::span<const std::uint3
 
 // Faces that point up are left out of closed solids: those that point down have the same outline.
 void PlanFaces::addFaces(std::uint32_t label, PlanParts& parts) const {
-    const bool isHalf = isClosed(labels_.labels[label].filling);
+    const bool isHalf = volume::hasClosedMesh(labels_.labels[label].filling);
     for (std::uint32_t f = firstFace_[label]; f < firstFace_[label + 1]; ++f) {
         const auto& corners = vectors_.triangles[f].corners;
         const Vec3i a = vectors_.points[corners[0]], b = vectors_.points[corners[1]], c = vectors_.points[corners[2]];

@@ -23,17 +23,13 @@ Box3d boxOfCorners(const std::array<Vec3d, 3>& corners) {
 
 }  // namespace
 
-bool hasClosedMesh(volume::Filling filling) noexcept {
-    return filling >= volume::Filling::Solid && filling <= volume::Filling::Capped;
-}
-
 std::vector<MeshSolid> meshSolids(const volume::SemanticVolume& volume, Vec3d offset) {
     std::vector<MeshSolid> solids;
     const std::span<const MeshTriangle> all = volume.vectors.triangles;
     for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
         while (end < all.size() && all[end].label == all[begin].label) ++end;
         MeshSolid solid{all[begin].label, all.subspan(begin, end - begin), {}, offset};
-        if (!hasClosedMesh(volume.labels.labels[solid.label].filling)) continue;
+        if (!volume::hasClosedMesh(volume.labels.labels[solid.label].filling)) continue;
         for (const MeshTriangle& triangle : solid.triangles)
             solid.box.add(boxOfCorners(cornersOf(triangle, volume.vectors, offset)));
         solids.push_back(solid);

@@ -21,9 +21,6 @@ struct MeshSolid {
     Vec3d offset{};  ///< added to all corners: from the lower corner of another grid
 };
 
-/// Whether the mesh of a label is closed, so that its volume is exact.
-[[nodiscard]] bool hasClosedMesh(volume::Filling filling) noexcept;
-
 /// The labels with closed meshes, ascending. The result refers to the triangles of `volume`.
 /// \param offset  see MeshSolid
 [[nodiscard]] std::vector<MeshSolid> meshSolids(const volume::SemanticVolume& volume, Vec3d offset = {});

@@ -44,7 +44,7 @@ public:
         for (const auto& [pair, overlap] : found_)
             if (overlap.voxels > 0 || overlap.volume > overlap.bound) overlaps.pairs.push_back(overlap);
         const auto all = std::ranges::count_if(labels_, [](const volume::Label& label) {
-            return hasClosedMesh(label.filling) || label.filling == volume::Filling::Winding;
+            return volume::hasClosedMesh(label.filling) || label.filling == volume::Filling::Winding;
         });
         overlaps.withoutMesh = static_cast<std::size_t>(all) - solids_.size();
         overlaps.isComplete = isComplete_;

@@ -15,6 +15,8 @@ namespace {
 
 using volume::Run, volume::Scalar;
 
+constexpr double kMostUnits = 0x1p30;  // of a coordinate
+
 // One of the two volumes, and where its first sample is in the difference volume.
 struct Placed {
     const volume::SemanticVolume& volume;
@@ -135,10 +137,10 @@ Result<volume::SemanticVolume> makeDifferenceVolume(const volume::SemanticVolume
                                                     const Comparison& comparison) {
     const auto offset = latticeOffset(was.grid, is.grid);
     if (!offset)
-        return Error(
-            Code::BadArgument,
-            "the samples of both volumes do not coincide, so there is no volume of their difference; give the new "
-            "state as a model file, which is then built on the grid of the old one");
+        return Error(Code::BadArgument,
+                     "a .svt of the difference needs two volumes with the same sample positions; give one state as a "
+                     "model file, "
+                     "which is then built on the samples of the other");
     const Vec3i n = was.grid.dimension(), m = is.grid.dimension();
     Vec3i first{}, dimension{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -163,6 +165,10 @@ Result<volume::SemanticVolume> makeDifferenceVolume(const volume::SemanticVolume
     difference.source = is.source;
     volume::VectorParts& parts = difference.vectors;
     parts.unit = std::max(was.vectors.unit, is.vectors.unit);
+    const Vec3d size = scaled(toDouble(dimension), grid->spacing());
+    while (parts.unit < volume::VectorParts::kCoarsestUnit &&
+           std::max({size.x, size.y, size.z}) / parts.unit > kMostUnits)
+        parts.unit *= 2;
     copyFaces(
         was.vectors, (was.grid.origin() - grid->origin()) / parts.unit,
         [&](std::uint32_t l) { return labels.wholeOfWas(l); }, parts);

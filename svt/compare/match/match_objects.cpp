@@ -156,10 +156,10 @@ private:
         takeBest(candidates, true);
     }
 
-    static std::vector<std::uint32_t> unusedLabels(std::span<const Shape> shapes, const std::vector<char>& isUsed) {
+    static std::vector<std::uint32_t> unusedSolids(std::span<const Shape> shapes, const std::vector<char>& isUsed) {
         std::vector<std::uint32_t> labels;
         for (std::size_t s = 0; s < shapes.size(); ++s)
-            if (isUsed[s] == 0) labels.push_back(shapes[s].label);
+            if (isUsed[s] == 0 && shapes[s].isSolid) labels.push_back(shapes[s].label);
         return labels;
     }
     static std::uint32_t shapeOf(std::span<const Shape> shapes, std::uint32_t label) {
@@ -170,8 +170,8 @@ private:
 
     // The common space of all pairs that are not matched yet.
     void findShared() {
-        const auto ofWas = unusedLabels(sides_.wasShapes, isUsedOfWas_),
-                   ofIs = unusedLabels(sides_.isShapes, isUsedOfIs_);
+        const auto ofWas = unusedSolids(sides_.wasShapes, isUsedOfWas_),
+                   ofIs = unusedSolids(sides_.isShapes, isUsedOfIs_);
         for (const analyze::CommonSpace& common : spaces_.among(ofWas, ofIs)) {
             const std::uint32_t a = shapeOf(sides_.wasShapes, common.a), b = shapeOf(sides_.isShapes, common.b);
             shared_.push_back(

@@ -61,6 +61,8 @@ public:
             return key(a) < key(b);
         });
         SVT_DO(measure(sides, matches, spaces, voxels));
+        comparison_.isReferenceSystemUnknown =
+            was_.crsName != is_.crsName && (crs::epsgCodeOf(was_.crsName) == 0 || crs::epsgCodeOf(is_.crsName) == 0);
         comparison_.isOnOneLattice = voxels.isOnOneLattice();
         comparison_.isComplete = spaces.isComplete();
         addProperties();

@@ -12,7 +12,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace svt::compare {
 namespace {
@@ -332,6 +336,46 @@ TEST(Comparison, DoesNotTakeADoubledSheetForAMovedOne) {
         if (!row.is.empty() && is.labels.labels[row.is[0]].id == "sheet") {
             EXPECT_EQ(row.change, Change::Changed);
         }
+}
+
+// Surfaces have no volume that shows a hole. All corners of the new face lie on the old one.
+TEST(Comparison, FindsAHoleInASurface) {
+    const auto wall = [](std::optional<double> holeAt) {
+        model::BuildingModel model = modelOf({kSlab});
+        model::Polygon face;
+        const auto add = [&](std::vector<Vec3d> ring) {
+            face.points.insert(face.points.end(), ring.begin(), ring.end());
+            face.ringEnds.push_back(static_cast<std::uint32_t>(face.points.size()));
+        };
+        add({{0, 0, 0}, {4, 0, 0}, {4, 0, 3}, {0, 0, 3}});
+        if (holeAt) {
+            const double a = *holeAt, b = *holeAt + 0.3;
+            add({{a, 0, 1}, {a, 0, 1.3}, {b, 0, 1.3}, {b, 0, 1}});
+        }
+        model::Geometry geometry;
+        geometry.surfaces.push_back({model.addPolygon(std::move(face)), false});
+        model::Feature feature;
+        feature.id = "wall";
+        feature.className = "WallSurface";
+        feature.geometries.push_back(std::move(geometry));
+        model.addFeature(std::move(feature), model::kNoFeature);
+        return volumeOf(std::move(model));
+    };
+    const auto changeOf = [](const volume::SemanticVolume& was, const volume::SemanticVolume& is) {
+        const auto comparison = compareVolumes(was, is);
+        EXPECT_TRUE(comparison);
+        for (const ComparisonRow& row : comparison->rows)
+            if (!row.is.empty() && is.labels.labels[row.is[0]].id == "wall") return row;
+        return ComparisonRow();
+    };
+    const auto plain = wall({}), left = wall(0.41), right = wall(2.87);
+    EXPECT_EQ(changeOf(plain, plain).change, Change::Same);
+    for (const auto& [was, is] : {std::pair(&plain, &left), std::pair(&left, &plain), std::pair(&left, &right)}) {
+        const ComparisonRow row = changeOf(*was, *is);
+        EXPECT_EQ(row.change, Change::Changed);
+        EXPECT_FALSE(row.added) << "a surface has no volume";
+        EXPECT_NEAR(row.distance.value_or(0), 0.15, 0.02);
+    }
 }
 
 TEST(Shapes, DifferInDigestsOfAnyCorner) {

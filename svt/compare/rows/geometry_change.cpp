@@ -53,9 +53,16 @@ bool GeometryMeasurer::measureExactly(const Match& match, ComparisonRow& row) {
 double GeometryMeasurer::voxelBound(const Match& match) const {
     const Vec3d spacing = sides_.was.grid.spacing();
     double area = 0;
-    for (const std::uint32_t s : match.was) area += sides_.wasShapes[s].area;
-    for (const std::uint32_t s : match.is) area += sides_.isShapes[s].area;
-    return area * 0.5 * std::max({spacing.x, spacing.y, spacing.z});
+    std::uint64_t uncertain = 0;
+    for (const std::uint32_t s : match.was) {
+        area += sides_.wasShapes[s].area;
+        uncertain += sides_.wasShapes[s].uncertainVoxels;
+    }
+    for (const std::uint32_t s : match.is) {
+        area += sides_.isShapes[s].area;
+        uncertain += sides_.isShapes[s].uncertainVoxels;
+    }
+    return area * 0.5 * std::max({spacing.x, spacing.y, spacing.z}) + double(uncertain) * sides_.was.grid.voxelVolume();
 }
 
 // Sheets have no volume, so theirs stays unknown.
@@ -113,12 +120,8 @@ void GeometryMeasurer::measureFaces(const Match& match, ComparisonRow& row) cons
         row.change = isOther ? Change::Reassigned : Change::Same;
     };
     if (a.faces.triangles.empty() || b.faces.triangles.empty()) {
-        const bool isMoved = areAlike(a, b, 1e-6) && changed > 0 && voxels_.isOnOneLattice();
-        if (changed == 0 && voxels_.isOnOneLattice() && row.added)
-            same();
-        else if (isMoved)
-            row.change = Change::Moved;
-        if (isMoved) row.vector = b.center - a.center;
+        // Voxels do not tell a move from another shape.
+        if (changed == 0 && row.added) same();
         return;
     }
     // Voxels show a change of an open shell, or of material behind a surface, that its faces do not show.
@@ -133,8 +136,9 @@ void GeometryMeasurer::measureFaces(const Match& match, ComparisonRow& row) cons
     double distance = distanceBetween(a, treeOfA, b, treeOfB);
     // Faces that are off by a little change the volume by no more than their area times that. More is a change between the
     // points, such as a hole.
-    const bool isExplained = distance <= options_.tolerance / 4 && changed <= distance * (a.area + b.area);
-    if (row.isExact && changed > 0 && distance <= options_.tolerance && !isExplained) {
+    const bool isExplained = row.isExact ? distance <= options_.tolerance / 4 && changed <= distance * (a.area + b.area)
+                                         : agreeWithin(a, b, distance);
+    if (distance <= options_.tolerance && !(row.isExact && changed == 0) && !isExplained) {
         const double step = std::max(options_.tolerance, std::sqrt(std::max(a.area, b.area) / kMostPoints));
         distance = std::max(distance, distanceBetween(a, treeOfA, b, treeOfB, {}, step));
     }
@@ -149,7 +153,7 @@ void GeometryMeasurer::measureFaces(const Match& match, ComparisonRow& row) cons
     const double rest = distanceBetween(a, treeOfA, b, treeOfB, vector);
     const double volumes = a.volume && b.volume ? std::abs(*a.volume - *b.volume) : 0;
     const double most = std::min(options_.tolerance, std::max(1e-4, length(vector) / 20));
-    if (rest <= most && volumes <= most * std::min(a.area, b.area)) {
+    if (rest <= most && volumes <= most * std::min(a.area, b.area) && agreeWithin(a, b, rest, vector)) {
         row.change = Change::Moved;
         row.vector = vector;
     }

@@ -62,12 +62,23 @@ void measureFaces(Shape& shape) {
     const std::array<double, 6> shift = productOf(center, center);
     for (std::size_t m = 0; m < 6; ++m) shape.moments[m] = second[m] - shift[m] * shape.area;
     shape.center = about + center;
-    if (shape.isSolid) shape.volume = volume;
+    shape.volume = volume;
     shape.digest = std::max<std::uint64_t>(1, mixHash(shape.digest, std::bit_cast<std::uint64_t>(faces.parts->unit)));
 }
 
-bool isClosed(volume::Filling filling) noexcept {
-    return filling >= volume::Filling::Solid && filling <= volume::Filling::Capped;
+// Whether the triangles enclose the volume that the label states. Those of a file may not, whatever it states.
+bool enclosesItsVolume(const Shape& shape, const volume::Label& label) {
+    if (!volume::hasClosedMesh(label.filling) || shape.faces.triangles.empty()) return false;
+    const double rounding = shape.area * shape.faces.parts->unit + 1e-6 * std::abs(label.volume);
+    return std::abs(shape.volume.value_or(0) - label.volume) <= rounding;
+}
+
+// Voxels that others took, and those that may lie outside of an open shell.
+std::vector<std::uint64_t> uncertainVoxels(const volume::LabelTable& table) {
+    std::vector<std::uint64_t> voxels(table.labels.size());
+    for (std::size_t l = 0; l < voxels.size(); ++l) voxels[l] = table.labels[l].uncertainVoxels;
+    for (const volume::Overlap& overlap : table.overlaps) voxels[overlap.b] += overlap.voxels;
+    return voxels;
 }
 
 }  // namespace
@@ -76,6 +87,7 @@ std::vector<Shape> findShapes(const volume::SemanticVolume& volume, Vec3d offset
     const std::vector<volume::Label>& labels = volume.labels.labels;
     const std::vector<Triangle>& triangles = volume.vectors.triangles;
     std::vector<Shape> shapes;
+    const std::vector<std::uint64_t> uncertain = uncertainVoxels(volume.labels);
     bool needsBoxes = false;
     auto begin = triangles.begin();
     for (std::uint32_t l = 0; l < labels.size(); ++l) {
@@ -87,9 +99,11 @@ std::vector<Shape> findShapes(const volume::SemanticVolume& volume, Vec3d offset
         begin = end;
         if (shape.faces.triangles.empty() && labels[l].voxels == 0) continue;
         shape.voxels = labels[l].voxels;
-        shape.isSolid = isClosed(labels[l].filling) && !shape.faces.triangles.empty();
-        shape.isCounted = !shape.isSolid && labels[l].filling != volume::Filling::Surface;
+        shape.uncertainVoxels = uncertain[l];
         measureFaces(shape);
+        shape.isSolid = enclosesItsVolume(shape, labels[l]);
+        if (!shape.isSolid) shape.volume.reset();
+        shape.isCounted = !shape.isSolid && labels[l].filling != volume::Filling::Surface;
         needsBoxes = needsBoxes || shape.faces.triangles.empty();
         shapes.push_back(shape);
     }
@@ -105,6 +119,17 @@ std::vector<Shape> findShapes(const volume::SemanticVolume& volume, Vec3d offset
             shape.digest = 0;
         }
     return shapes;
+}
+
+bool agreeWithin(const Shape& a, const Shape& b, double distance, Vec3d shift) noexcept {
+    const double size = std::max(length(a.box.size()), length(b.box.size()));
+    // Edges that move by the distance change the area by that times their length.
+    const double areaOff = distance * size * 8 + 1e-9 * (a.area + b.area);
+    if (std::abs(a.area - b.area) > areaOff) return false;
+    if (length(a.center + shift - b.center) > distance + 1e-9 * size) return false;
+    for (std::size_t m = 0; m < 6; ++m)
+        if (std::abs(a.moments[m] - b.moments[m]) > areaOff * size * size) return false;
+    return true;
 }
 
 bool areAlike(const Shape& a, const Shape& b, double tolerance) noexcept {

@@ -31,6 +31,7 @@ struct Shape {
     bool isSolid = false;    ///< whether the mesh is closed
     bool isCounted = false;  ///< whether voxels decide its volume: open shells, material behind surfaces
     std::uint64_t voxels = 0;
+    std::uint64_t uncertainVoxels = 0;  ///< that other objects took, or that may lie outside of an open shell
     Box3d box;
     double area = 0;               ///< m2 of all faces
     std::optional<double> volume;  ///< m3 of a closed mesh
@@ -44,6 +45,11 @@ struct Shape {
 /// \param offset  from the grid origin of the first volume to that of this one
 /// Cost: O(triangles), and O(voxel runs) if an object has no triangles.
 [[nodiscard]] std::vector<Shape> findShapes(const volume::SemanticVolume& volume, Vec3d offset);
+
+/// Whether area, centre and moments agree so well that faces within `distance` metres of each other explain the rest. A
+/// hole changes them by more.
+/// \param shift  added to the centre of `a`
+[[nodiscard]] bool agreeWithin(const Shape& a, const Shape& b, double distance, Vec3d shift = {}) noexcept;
 
 /// Whether one shape may be the other, moved: areas, moments and closed volumes agree within rounding and `tolerance`.
 [[nodiscard]] bool areAlike(const Shape& a, const Shape& b, double tolerance) noexcept;

@@ -109,10 +109,6 @@ std::vector<MeshSum> sumMeshes(const volume::SemanticVolume& volume) {
     return sums;
 }
 
-bool hasClosedMesh(volume::Filling filling) noexcept {
-    return filling >= volume::Filling::Solid && filling <= volume::Filling::Capped;
-}
-
 class AreaMaker {
 public:
     AreaMaker(const volume::SemanticVolume& volume, const std::vector<BuildingLevel>& levels, int threads,
@@ -287,7 +283,7 @@ private:
             sum.className = owner.className;
             sum.type = std::move(type);
             sum.count += std::exchange(isCounted[object], 1) == 0;
-            sum.area += hasClosedMesh(label.filling) ? 0.5 * meshes_[l].seen : meshes_[l].seen;
+            sum.area += volume::hasClosedMesh(label.filling) ? 0.5 * meshes_[l].seen : meshes_[l].seen;
             sum.volume += label.volume;
         }
         for (auto& [key, sum] : sums) areas_.components.push_back(std::move(sum));

@@ -12,10 +12,6 @@ namespace {
 
 constexpr double kLeastHeight = 1.5;  // metres: lower spaces are voids
 
-bool isClosed(volume::Filling filling) noexcept {
-    return filling >= volume::Filling::Solid && filling <= volume::Filling::Capped;
-}
-
 }  // namespace
 
 std::vector<std::optional<double>> roomFloorAreas(const volume::SemanticVolume& volume) {
@@ -25,7 +21,7 @@ std::vector<std::optional<double>> roomFloorAreas(const volume::SemanticVolume& 
     const auto& triangles = volume.vectors.triangles;
     for (std::size_t n = 0; n < triangles.size();) {
         const std::uint32_t label = triangles[n].label;
-        const bool isRoom = isRoomSpace(labels[label]) && isClosed(labels[label].filling);
+        const bool isRoom = isRoomSpace(labels[label]) && volume::hasClosedMesh(labels[label].filling);
         double below = 0, lowest = kInfinity, highest = -kInfinity;
         for (; n < triangles.size() && triangles[n].label == label; ++n) {
             if (!isRoom) continue;

@@ -21,8 +21,6 @@ using volume::kNoLabel;
 constexpr std::uint32_t kNoClaim = 0xFFFFFFFFu;
 constexpr double kMeetDistance = 8e-6;  // metres: closer points and edges meet, like welded points
 
-bool isClosedShell(Filling filling) noexcept { return filling >= Filling::Solid && filling <= Filling::Capped; }
-
 // The claim of a label to a part of the plane; claims are ordered by priority, like those of the voxelizer.
 struct SectionClaim {
     std::uint32_t label = 0;
@@ -73,7 +71,7 @@ private:
     void findGroups() {
         for (std::uint32_t l = 0; l < labelCount(); ++l) {
             const volume::Label& building = labelOf(l);
-            const bool isSolid = isClosedShell(building.filling) || building.filling == Filling::Winding;
+            const bool isSolid = volume::hasClosedMesh(building.filling) || building.filling == Filling::Winding;
             if (!isSolid || !tables_.facts()[l].isBuilding) continue;
             MaterialGroup group{l, static_cast<std::uint32_t>(bodies_.size()), 0};
             for (std::uint32_t below = l + 1; below < building.subtreeEnd; ++below)
@@ -96,8 +94,8 @@ private:
             if (label.filling == Filling::Winding) section_.isExact[l] = 0;
             if (isCut[l] == 0 && section_.isExact[l] != 0) continue;
             const auto rank = static_cast<std::uint8_t>(model::classRank(label.className));
-            if (isClosedShell(label.filling) || label.filling == Filling::Winding)
-                claims_.push_back({l, rank, false, isClosedShell(label.filling) ? label.volume : 0});
+            if (volume::hasClosedMesh(label.filling) || label.filling == Filling::Winding)
+                claims_.push_back({l, rank, false, volume::hasClosedMesh(label.filling) ? label.volume : 0});
             else
                 claims_.push_back({l, rank, true, 0});
         }
@@ -151,7 +149,7 @@ private:
     void addMeshSegments(const MeshCut& cut) {
         for (const CutSegment& segment : cut.segments) {
             const plane::Point from = placed(segment.from), to = placed(segment.to);
-            if (isClosedShell(labelOf(segment.label).filling))
+            if (volume::hasClosedMesh(labelOf(segment.label).filling))
                 segments_.push_back({from, to, solidClaim_[segment.label], 1});
             else if (sheetClaim_[segment.label] != kNoClaim)
                 segments_.push_back({from, to, sheetClaim_[segment.label], 0});

@@ -85,7 +85,7 @@ std::vector<std::uint32_t> labelsAt(const SectionDrawing& drawing, PlanePoint p)
     return found;
 }
 
-/// The rules for every drawing: rings have the right orientation, and areas have the right sums. Each edge of a ring
+/// Checks the orientation of all rings and the sums of all areas. Each edge of a ring
 /// belongs to at most one neighbour, in the opposite direction.
 /// \param walls  labels that join without a border, see joinWalls()
 void expectSound(const SectionDrawing& drawing, const std::set<std::uint32_t>& walls = {}) {

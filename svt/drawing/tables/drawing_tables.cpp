@@ -29,7 +29,7 @@ std::vector<LabelFacts> factsOf(const volume::LabelTable& table) {
         const model::ClassRank rank = model::classRank(label.className);
         LabelFacts& of = facts[l];
         of.isSpace = model::isSpace(label.className);
-        of.isClosed = label.filling >= Filling::Solid && label.filling <= Filling::Capped;
+        of.isClosed = volume::hasClosedMesh(label.filling);
         of.isSheet = isSurface && label.filling == Filling::Surface;
         of.isElement = rank >= model::ClassRank::Element;
         of.isBuilding = rank == model::ClassRank::Building;

@@ -46,11 +46,6 @@ bool isClosed(Triangles triangles) {
 
 enum class Source : std::uint8_t { None, Voxels, Solid, Sheet, Skin, Material };
 
-bool isFilledExactly(volume::Filling filling) noexcept {
-    return filling == volume::Filling::Solid || filling == volume::Filling::TJunctions ||
-           filling == volume::Filling::Complemented || filling == volume::Filling::Capped;
-}
-
 // The solids whose material is that of thematic bodies: of the solids above such a surface (its room, its building),
 // the one of the lowest priority. If a surface has no triangles, or a pattern, voxels divide the material.
 void findMaterials(const std::vector<volume::Label>& labels, std::span<const std::uint32_t> order,
@@ -94,7 +89,7 @@ std::vector<Source> sourcesOf(const volume::SemanticVolume& volume, std::span<co
         sources[l] = Source::Voxels;
         if (label.count != 1) continue;
         const Triangles triangles = trianglesOf(volume.vectors, l);
-        if (isFilledExactly(label.filling) && isClosed(triangles)) sources[l] = Source::Solid;
+        if (volume::hasClosedMesh(label.filling) && isClosed(triangles)) sources[l] = Source::Solid;
         if (label.filling == volume::Filling::Surface && !triangles.empty()) sources[l] = Source::Sheet;
         if (label.filling == volume::Filling::Body && !triangles.empty()) sources[l] = Source::Skin;
     }

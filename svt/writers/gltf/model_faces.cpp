@@ -15,18 +15,13 @@ namespace {
 
 using volume::Filling;
 
-bool isClosedMesh(Filling filling) noexcept {
-    return filling == Filling::Solid || filling == Filling::TJunctions || filling == Filling::Complemented ||
-           filling == Filling::Capped;
-}
-
 bool isBuildingClass(const volume::Label& label) {
     return model::classRank(label.className) == model::ClassRank::Building;
 }
 
 bool isChosenFilling(Filling filling, MeshChoice choice) noexcept {
     if (filling == Filling::Surface) return choice >= MeshChoice::Sheets;
-    if (isClosedMesh(filling)) return choice >= MeshChoice::Closed;
+    if (volume::hasClosedMesh(filling)) return choice >= MeshChoice::Closed;
     return filling == Filling::Winding ? choice >= MeshChoice::Open : choice == MeshChoice::All;
 }
 
@@ -134,7 +129,7 @@ private:
     void markBetween(const Face& a, const Face& b, const std::vector<std::uint32_t>& roots) {
         const std::uint32_t first = labelOf(a), second = labelOf(b);
         const auto isPart = [&](const volume::Label& label) {
-            return isClosedMesh(label.filling) && isBuildingClass(label) && surfaceOpacity(label) >= 1;
+            return volume::hasClosedMesh(label.filling) && isBuildingClass(label) && surfaceOpacity(label) >= 1;
         };
         if (first == second || second < labels_[first].subtreeEnd || roots[first] != roots[second] ||
             a.isReversed == b.isReversed || !isPart(labels_[first]) || !isPart(labels_[second]) || !isSame(a, b))

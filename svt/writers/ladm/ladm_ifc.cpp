@@ -152,8 +152,7 @@ private:
 
     int addRoom(std::uint32_t label, int place) {
         std::vector<std::vector<SpaceRings>> solids;
-        const volume::Filling filling = labelOf(label).filling;
-        if (filling >= volume::Filling::Solid && filling <= volume::Filling::Capped) {
+        if (volume::hasClosedMesh(labelOf(label).filling)) {
             std::vector<SpaceRings> faces;
             for (std::size_t n = firstTriangle_[label]; n < firstTriangle_[label + 1]; ++n) {
                 std::vector<Vec3d> ring;

@@ -191,7 +191,7 @@ public:
     // and beside the circles before it. Returns the centre of the circle; nothing if the name stands there already, as
     // where each storey has the same grid.
     std::optional<PlanePoint> extend(MarkPath& path, bool isFront, const std::string& name) {
-        constexpr int kMost = 3;  // circles one behind the other
+        constexpr int kMostCircles = 3;  // circles one behind the other
         PlanePoint& end = isFront ? path.front() : path.back();
         const PlanePoint before = isFront ? path[1] : path[path.size() - 2];
         const double size = std::hypot(end.u - before.u, end.v - before.v);
@@ -201,7 +201,7 @@ public:
             const double way = wayOut(end, along);
             end = {end.u + along.u * way, end.v + along.v * way};
         }
-        for (int n = 0; n < kMost && takenBy(centre()) != nullptr; ++n) {
+        for (int n = 0; n < kMostCircles && takenBy(centre()) != nullptr; ++n) {
             if (*takenBy(centre()) == name) return std::nullopt;
             end = {end.u + along.u * 2 * kGridRadius, end.v + along.v * 2 * kGridRadius};
         }

@@ -21,7 +21,7 @@ struct BuildingRow {
 };
 
 /// Adds the columns, and returns EXT_structural_metadata: id, name, class, volume, height, lowest and attributes.
-/// There are no names if each is empty or the id.
+/// The table omits the column of names if each name is empty or equals the id.
 [[nodiscard]] nlohmann::ordered_json buildingTable(const std::vector<BuildingRow>& buildings, bool hasAttributes,
                                                    GltfBuffer& buffer);
 

@@ -48,8 +48,8 @@ GltfJson metadataOf(const LabelHulls& hulls, std::size_t begin, std::size_t end,
     }
     PropertyTable table(buffer, end - begin);
     table.strings("id", "id in the model", ids);
-    const auto hasAny = [](const std::vector<std::string>& texts) {
-        return std::any_of(texts.begin(), texts.end(), [](const std::string& text) { return !text.empty(); });
+    const auto hasAny = [](const std::vector<std::string>& column) {
+        return std::any_of(column.begin(), column.end(), [](const std::string& text) { return !text.empty(); });
     };
     table.namesBesideIds(names, ids);
     table.names("class", "", classes);

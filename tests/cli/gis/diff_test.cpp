@@ -6,6 +6,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 namespace svt::test {
 namespace {
@@ -83,6 +84,18 @@ TEST_F(Diff, WritesTablesAndAVolume) {
     EXPECT_FALSE(written["summary"]["different"].get<bool>());
     const json rows = runSvtForJson(folder.path(), {"query", "d.svt", "class=Building", "--json"});
     EXPECT_EQ(rows.size(), 2u);
+}
+
+// Whichever state is a .svt, the model is built on its samples.
+TEST_F(Diff, ComparesAModelWithAVolume) {
+    sample("a.gml", {"--storeys", "1"});
+    runSvtWell(folder.path(),
+               {"build", "a.gml", "-o", "a.svt", "--dimension", "70,60,50", "--vectors", "meshes", "-q"});
+    for (const auto& [was, is] : {std::pair("a.svt", "a.gml"), std::pair("a.gml", "a.svt")}) {
+        const CommandResult result = runSvt(folder.path(), {"diff", was, is, "-o", "d.svt"});
+        EXPECT_EQ(result.exitCode, 0) << result.toString();
+        EXPECT_EQ(result.err.find("sample positions"), std::string::npos) << result.err;
+    }
 }
 
 TEST_F(Diff, AlignsShiftedModels) {

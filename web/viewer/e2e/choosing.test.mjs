@@ -193,7 +193,7 @@ describe("planes", () => {
     await visit.page.click("#plane-by-face");
     const box = await stage();
     await visit.page.mouse.click(box.x + box.width * 0.97, box.y + box.height * 0.5);
-    await visit.message("There is no face here.");
+    await visit.message("Click a face of the model.");
     await visit.page.locator("#plane-by-face").focus();
     await visit.page.keyboard.press("Enter");
     await visit.page.locator("svt-aim .layer:focus").waitFor();

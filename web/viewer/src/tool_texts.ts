@@ -101,7 +101,7 @@ const kToolTexts = {
   faceHint: ["Click a face: the plane goes through it.", "Eine Fläche anklicken: Die Ebene geht durch sie."],
   faceKeys: ["Enter takes the face in the middle.", "Eingabe nimmt die Fläche in der Mitte."],
   facePlane: ["Plane {n} goes through the face.", "Ebene {n} geht durch die Fläche."],
-  faceNothing: ["There is no face here.", "Hier ist keine Fläche."],
+  faceNothing: ["Click a face of the model.", "Klicken Sie auf eine Fläche des Modells."],
   sectionBox: ["Section box", "Schnittkasten"],
   sectionBoxHint: [
     "Six planes around the selection, or around the middle of the building. They replace other planes.",
