@@ -123,7 +123,7 @@ std::vector<Shape> findShapes(const volume::SemanticVolume& volume, Vec3d offset
 
 bool agreeWithin(const Shape& a, const Shape& b, double distance, Vec3d shift) noexcept {
     const double size = std::max(length(a.box.size()), length(b.box.size()));
-    // Edges that move by the distance change the area by that times their length.
+    // Edges that move by the distance change the area by the product of both.
     const double areaOff = distance * size * 8 + 1e-9 * (a.area + b.area);
     if (std::abs(a.area - b.area) > areaOff) return false;
     if (length(a.center + shift - b.center) > distance + 1e-9 * size) return false;
