@@ -14,10 +14,10 @@ Exit code 1 if more than a tenth survive.
 import argparse
 import concurrent.futures
 import dataclasses
+import hashlib
 import os
 import pathlib
 import queue
-import random
 import re
 import shutil
 import subprocess
@@ -71,6 +71,10 @@ class Change:
     def key(self) -> str:
         """Without the line number, which changes with each edit above it."""
         return f"{self.path}: {self.text.strip()}  ->  {self.changed().strip()}"
+
+    def rank(self, seed: int) -> str:
+        """Orders changes by chance. An edit of other lines does not change the order, so a sample stays the same."""
+        return hashlib.sha256(f"{seed} {self.begin} {self.key()}".encode()).hexdigest()
 
 
 def code_of(line: str) -> str:
@@ -204,8 +208,7 @@ def main() -> int:
             if not path.stem.endswith("_test") and re.search(arguments.only, str(path.relative_to(ROOT)))
         ]
         choices = [change for path in sources for change in changes_of(path) if change.key() not in equivalent]
-        random.Random(arguments.seed).shuffle(choices)
-        chosen += choices[: arguments.count]
+        chosen += sorted(choices, key=lambda change: change.rank(arguments.seed))[: arguments.count]
 
     targets = [f"svt_{folder}_test" for folder in arguments.folders]
     copies: queue.Queue[pathlib.Path] = queue.Queue()

@@ -278,6 +278,58 @@ TEST(Comparison, RefusesOtherReferenceSystemsAndTolerances) {
     EXPECT_EQ(compareVolumes(compared.was, compared.is).error().code(), Code::BadArgument);
 }
 
+// Without meshes, voxels decide, and their bound is unknown.
+TEST(Comparison, CountsVoxelsWithoutMeshes) {
+    TestBox longer = kWall;
+    longer.max.x = 4.5;
+    auto was = volumeOf(modelOf({kWall, kSlab})), is = volumeOf(modelOf({longer, kSlab}), &was.grid);
+    was.vectors = is.vectors = {};
+    const auto comparison = compareVolumes(was, is);
+    ASSERT_TRUE(comparison);
+    EXPECT_EQ(comparison->counts[std::size_t(Change::Same)], 1u);
+    for (const ComparisonRow& row : comparison->rows)
+        if (row.change != Change::Same) {
+            EXPECT_EQ(row.change, Change::Changed);
+            EXPECT_NEAR(row.added.value_or(0), 0.5 * 0.3 * 3, 1e-9);
+            EXPECT_EQ(row.removed, 0.0);
+            EXPECT_FALSE(row.bound || row.distance || row.vector || row.isExact);
+        }
+}
+
+// Storeys have rows of their own, and give their objects another storey.
+TEST(Comparison, FindsRenamedGroupsAndOtherStoreys) {
+    const auto modelWith = [](const std::string& name, bool isAbove) {
+        auto model = modelOf({kWall, kSlab});
+        for (const char* id : {"low", "high"}) {
+            model::Feature storey;
+            storey.id = id;
+            storey.className = "Storey";
+            storey.name = std::string(id) == "low" ? name : "Upper floor";
+            model.addFeature(std::move(storey), model::kNoFeature);
+        }
+        // The wall belongs to one of the storeys.
+        model.memberships.push_back({isAbove ? 3u : 2u, 0u, {}});
+        return model;
+    };
+    const auto was = volumeOf(modelWith("Ground", false)), is = volumeOf(modelWith("Ground floor", true), &was.grid);
+    const auto comparison = compareVolumes(was, is);
+    ASSERT_TRUE(comparison);
+    std::size_t groups = 0;
+    for (const ComparisonRow& row : comparison->rows) {
+        ASSERT_EQ(row.is.size(), 1u);
+        const std::string& id = is.labels.labels[row.is[0]].id;
+        EXPECT_EQ(row.change, Change::Same) << id;
+        EXPECT_EQ(row.hasOtherStorey, id == "wall") << id;
+        EXPECT_EQ(row.hasOtherName, id == "low") << id;
+        groups += row.hasGeometry ? 0 : 1;
+    }
+    EXPECT_EQ(groups, 2u);
+    EXPECT_EQ(comparison->otherProperties, 2u);
+    CompareOptions none;
+    none.properties = Properties::None;
+    EXPECT_FALSE(compareVolumes(was, is, none)->isDifferent());
+}
+
 TEST(DifferenceVolume, CountsTheSpaceThatChanged) {
     TestBox longer = kWall;
     longer.max.x = 4.5;
@@ -297,6 +349,12 @@ TEST(DifferenceVolume, CountsTheSpaceThatChanged) {
     EXPECT_NEAR(volumeOfPart("wall"), 4 * 0.3 * 3, 1e-9);
     EXPECT_NEAR(volumeOfPart("column"), 0.4 * 0.4 * 3, 1e-9);
     EXPECT_NEAR(volumeOfPart("slab"), 4 * 5 * 0.3, 1e-9);
+    for (const volume::Label& label : difference->labels.labels) {
+        const bool isPart = label.id.find('/') != std::string::npos || label.id == "wall";
+        if (label.count > 0) {
+            EXPECT_EQ(volume::hasClosedMesh(label.filling), !isPart) << label.id;
+        }
+    }
     EXPECT_EQ(difference->grid.dimension(), compared.was.grid.dimension() + (Vec3i{5, 0, 0}));
 }
 
@@ -401,6 +459,31 @@ TEST(Shapes, OfTurnedObjectsAreNotAlike) {
     ASSERT_EQ(shapes.size(), 3u);
     EXPECT_FALSE(areAlike(shapes[0], shapes[1], 0.01));
     EXPECT_TRUE(areAlike(shapes[0], shapes[2], 0.01));
+}
+
+// Two plates farther apart have the same area, volume and centre. Only one moment differs.
+TEST(Shapes, OfPartsFartherApartAreNotAlike) {
+    const auto plates = [](int axis, double apart) {
+        TestBox low{"a", "Column", {0, 0, 0}, {1, 1, 1}}, high = low;
+        low.max[axis] = 0.1;
+        high.min[axis] = apart;
+        high.max[axis] = apart + 0.1;
+        auto model = modelOf({low, high});
+        auto& solids = model.features[0].geometries[0].solids;
+        solids.push_back(model.features[1].geometries[0].solids[0]);
+        model.features.pop_back();
+        model.roots.pop_back();
+        return findShapes(volumeOf(std::move(model)), {});
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto near = plates(axis, 2), far = plates(axis, 3);
+        ASSERT_EQ(near.size(), 1u);
+        ASSERT_EQ(far.size(), 1u);
+        EXPECT_NEAR(near[0].area, far[0].area, 1e-6);
+        EXPECT_FALSE(areAlike(near[0], far[0], 0.01));
+        EXPECT_FALSE(agreeWithin(near[0], far[0], 0.01, far[0].center - near[0].center));
+        EXPECT_TRUE(areAlike(near[0], near[0], 0.01));
+    }
 }
 
 TEST(FaceTree, OfOneTriangleGivesItsDistance) {
