@@ -84,19 +84,18 @@ private:
         return at == ids.end() ? kNone : at->second;
     }
 
-    void use(std::uint32_t was, std::uint32_t is, bool isSamePlace) {
+    void use(std::uint32_t was, std::uint32_t is) {
         isUsedOfWas_[was] = isUsedOfIs_[is] = 1;
-        matches_.push_back({{was}, {is}, isSamePlace});
+        matches_.push_back({{was}, {is}});
     }
 
     // Takes the candidates in order, each shape once.
-    void takeBest(std::vector<Candidate>& candidates, bool isSamePlace) {
+    void takeBest(std::vector<Candidate>& candidates) {
         std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
             return std::tuple(-a.score, a.distance, a.was, a.is) < std::tuple(-b.score, b.distance, b.was, b.is);
         });
         for (const Candidate& candidate : candidates)
-            if (isUsedOfWas_[candidate.was] == 0 && isUsedOfIs_[candidate.is] == 0)
-                use(candidate.was, candidate.is, isSamePlace);
+            if (isUsedOfWas_[candidate.was] == 0 && isUsedOfIs_[candidate.is] == 0) use(candidate.was, candidate.is);
     }
 
     // Whether ids say that both belong to other objects: one with the same id is alike, so it moved.
@@ -153,7 +152,7 @@ private:
                     }
             }
         }
-        takeBest(candidates, true);
+        takeBest(candidates);
     }
 
     static std::vector<std::uint32_t> unusedSolids(std::span<const Shape> shapes, const std::vector<char>& isUsed) {
@@ -230,7 +229,7 @@ private:
             const volume::Label &a = wasLabel(was), &b = isLabel(is);
             if (options_.match == MatchBy::Id || a.className == b.className || (!a.name.empty() && a.name == b.name) ||
                 areAlike(sides_.wasShapes[was], sides_.isShapes[is], options_.tolerance))
-                use(was, is, false);
+                use(was, is);
         }
     }
 
@@ -243,7 +242,7 @@ private:
             if (share >= (isOneClass ? kLeastShared : kLeastSharedOfOtherClass))
                 candidates.push_back({shared.was, shared.is, isOneClass ? 1.0 : 0.0, -share});
         }
-        takeBest(candidates, false);
+        takeBest(candidates);
     }
 
     // Those of one class whose areas follow each other closely form a cluster.
@@ -285,7 +284,7 @@ private:
             for (const std::uint32_t t : is)
                 if (areAlike(sides_.wasShapes[s], sides_.isShapes[t], options_.tolerance))
                     candidates.push_back(candidateOf(s, t));
-        takeBest(candidates, false);
+        takeBest(candidates);
     }
 
     // Many equal objects: a translation keeps their order in space.
@@ -298,8 +297,7 @@ private:
         sortByPlace(was, sides_.wasShapes);
         sortByPlace(is, sides_.isShapes);
         for (std::size_t n = 0; n < std::min(was.size(), is.size()); ++n)
-            if (areAlike(sides_.wasShapes[was[n]], sides_.isShapes[is[n]], options_.tolerance))
-                use(was[n], is[n], false);
+            if (areAlike(sides_.wasShapes[was[n]], sides_.isShapes[is[n]], options_.tolerance)) use(was[n], is[n]);
     }
 
     Sides sides_;

@@ -16,7 +16,6 @@ namespace svt::compare {
 /// Indices of shapes that belong together. One old and one new: a pair; none: added or removed; several: merged, split.
 struct Match {
     std::vector<std::uint32_t> was, is;
-    bool isSamePlace = false;  ///< areAtOnePlace() within the tolerance
 };
 
 struct Sides {

@@ -237,6 +237,23 @@ TEST(Comparison, FindsOtherNamesClassesAndOwnersOfSpace) {
     EXPECT_TRUE(compared.comparison.isDifferent());
 }
 
+// Two equal boxes at one place, and the nearer of two shapes that moved.
+TEST(Comparison, PrefersTheSameIdThenTheNearest) {
+    TestBox twin = kWall;
+    twin.id = "twin";
+    const Compared doubled({kWall, twin}, {twin, kWall});
+    EXPECT_FALSE(doubled.row("wall").hasOtherId);
+    EXPECT_FALSE(doubled.row("twin").hasOtherId);
+    const auto boxAt = [](const std::string& id, double x) {
+        return TestBox{id, "Column", {x, 0, 0}, {x + 0.4, 0.4, 3}};
+    };
+    CompareOptions bySpace;
+    bySpace.match = MatchBy::Space;
+    const Compared moved({boxAt("a", 0), boxAt("b", 10)}, {boxAt("c", 11), boxAt("d", 1)}, bySpace);
+    EXPECT_NEAR(moved.row("c").vector.value_or(Vec3d{}).x, 1, 1e-5);
+    EXPECT_NEAR(moved.row("d").vector.value_or(Vec3d{}).x, 1, 1e-5);
+}
+
 TEST(Comparison, FollowsIdsThatMovedIntoEachOthersPlace) {
     const auto boxAt = [](const std::string& id, double x) {
         return TestBox{id, "Column", {x, 0, 0}, {x + 0.4, 0.4, 3}};
