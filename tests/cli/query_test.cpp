@@ -103,8 +103,12 @@ protected:
         for (const json& row : classes) {
             const bool isRoof = row["class"] == "RoofSurface";
             EXPECT_EQ(row["roofFaces"].is_null(), !isRoof) << row;
-            if (isRoof) EXPECT_NEAR(row["roofFaces"].get<double>(), 96, 1e-4);
-            if (row["class"] == "Building") EXPECT_TRUE(row["wallFaces"].is_null()) << "they count with the walls";
+            if (isRoof) {
+                EXPECT_NEAR(row["roofFaces"].get<double>(), 96, 1e-4);
+            }
+            if (row["class"] == "Building") {
+                EXPECT_TRUE(row["wallFaces"].is_null()) << "they count with the walls";
+            }
         }
         const json rows = ask({"id=b", "--sort", "volume"});
         ASSERT_EQ(rows.size(), 1u);

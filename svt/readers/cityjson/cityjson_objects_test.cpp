@@ -250,7 +250,9 @@ TEST(CityJsonObjects, AttributesKeepTypeNestingAndUnit) {
     EXPECT_EQ(attribute(b, "address/Locality"), "Graz");
     EXPECT_EQ(toText(attributeLists(b.attributes).back()), "55");
     for (const AttributeList& list : attributeLists(b.attributes))
-        if (list.name == "address/Locality") EXPECT_EQ(toText(list), R"(["Graz","Wien"])");
+        if (list.name == "address/Locality") {
+            EXPECT_EQ(toText(list), R"(["Graz","Wien"])");
+        }
     EXPECT_EQ(attribute(b, "+noise/db"), "55");
     EXPECT_EQ(reading.model().features[1].className, "+Kiosk");
     EXPECT_EQ(reading.model().features[1].name, "K");
