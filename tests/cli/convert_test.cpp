@@ -357,6 +357,12 @@ TEST_F(Convert, CesiumShowsTilesAtTheirPlaceAndTellsComponents) {
 TEST_F(Convert, CesiumShowsVoxelsAndTellsTheirLabels) {
     prepareHouse(folder.path(), "0.1");
     runSvtWell(folder.path(), {"convert", "house.svt", "house.nrrd", "--encoding", "raw"});
+    for (const char* option : {"--per-building", "--meshopt"}) {
+        const CommandResult refused = runSvt(folder.path(), {"convert", "house.svt", "no.3dtiles", "--voxels", option});
+        EXPECT_EQ(refused.exitCode, 2) << option;
+        EXPECT_NE(refused.err.find("--voxels"), std::string::npos) << refused.err;
+        EXPECT_FALSE(fs::exists(folder / "no.3dtiles")) << option;
+    }
     runSvtWell(folder.path(), {"convert", "house.svt", "house.3dtiles", "--voxels"});
     if (!isRun(folder.path(), nodeOf("cesium_voxels.mjs") + "house.3dtiles house.nrrd voxels.png", said))
         GTEST_SKIP() << said;

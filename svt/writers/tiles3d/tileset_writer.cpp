@@ -34,7 +34,15 @@ constexpr std::uint64_t kTileTriangles = 300'000;
 ///         Cancelled
 Result<std::uint64_t> writeTileset(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                    const VolumeWriteOptions& options) {
-    if (options.tileset.hasVoxels) return writeVoxelTileset(volume, path, options);
+    if (options.tileset.hasVoxels) {
+        if (options.tileset.isPerBuilding || options.tileset.isCompressed)
+            return Error(
+                Code::BadArgument,
+                fmt::format("{}: tiles of voxels (--voxels) have neither a feature per building nor triangles; "
+                            "leave out --per-building and --meshopt, or --voxels",
+                            path.string()));
+        return writeVoxelTileset(volume, path, options);
+    }
     const Vec3d corner = lowerCorner(volume.grid);
     SVT_TRY(frame, frameOfVolume(volume, corner, options));
     NewFolder folder(path);
