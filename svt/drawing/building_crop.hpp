@@ -14,12 +14,13 @@ namespace svt::drawing {
 /// The drawing without the parts of terrain, vegetation, roads and city furniture that lie beyond the building, and
 /// without those of partsAwayFromBuilding(). Slabs of the site, outside of all buildings and storeys, that are more than
 /// half as long again as the buildings count as terrain. A margin of a twentieth of the building, at least 1 m, remains.
-/// A drawing without a building stays as it is. The cut-off has no border.
+/// A drawing without a building stays as it is. The cut-off has no border. A plan has no tree or shrub that would be cut
+/// off.
 /// Cost: O(points of the drawing + triangles of the model).
 [[nodiscard]] SectionDrawing croppedToBuilding(const SectionDrawing& drawing, const volume::SemanticVolume& volume);
 
 /// The labels that croppedToBuilding() cuts off, for several drawings of one volume: 1 for terrain, vegetation and parts
-/// away from the building.
+/// away from the building, 2 for single trees and shrubs, 0 for the others.
 [[nodiscard]] std::vector<std::uint8_t> labelsAroundBuilding(const volume::SemanticVolume& volume);
 /// The same crop, without another look at the model.
 /// \param isAround  by label, of labelsAroundBuilding()

@@ -50,10 +50,40 @@ struct ClipScratch {
     std::vector<LinePart> covered, joints;
 };
 
+// A box around an edge or a face, with a margin that is larger than all distances within which they act on each other.
+// Most faces near an edge end beside it or lie deeper: this small record decides that.
+struct NearBox {
+    float low[2], high[2], leastDepth;
+
+    explicit NearBox(std::span<const Vec3d> corners) noexcept : low{kFar, kFar}, high{-kFar, -kFar}, leastDepth(kFar) {
+        for (const Vec3d& corner : corners) {
+            for (int axis = 0; axis < 2; ++axis) {
+                low[axis] = std::min(low[axis], below(corner[axis]));
+                high[axis] = std::max(high[axis], -below(-corner[axis]));
+            }
+            leastDepth = std::min(leastDepth, below(corner.z));
+        }
+    }
+    [[nodiscard]] bool meets(const NearBox& other) const noexcept {
+        return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1];
+    }
+
+private:
+    static constexpr float kFar = 3e38F;
+    // Farther than the rounding of a float.
+    static float below(double at) noexcept {
+        constexpr double kMargin = 1e-3, kShare = 1e-6;  // metres
+        return static_cast<float>(std::clamp(at - kMargin - kShare * std::abs(at), -1e38, 1e38));
+    }
+};
+
 class LineClipper {
 public:
     LineClipper(const ViewShapes& shapes, const CutRegion& cut, const JointRule& rule, bool wantsHidden)
-        : shapes_(shapes), cut_(cut), rule_(rule), wantsHidden_(wantsHidden), index_(indexOf(shapes)) {}
+        : shapes_(shapes), cut_(cut), rule_(rule), wantsHidden_(wantsHidden), index_(indexOf(shapes)) {
+        boxes_.reserve(shapes.faces.size());
+        for (const ViewFace& face : shapes.faces) boxes_.emplace_back(std::span(face.corners).first(face.cornerCount));
+    }
 
     // The visible parts of an edge, and, if asked for, the others.
     void clip(const ViewEdge& edge, BeyondKind kind, ClipScratch& scratch, std::vector<BeyondLine>& lines) const {
@@ -64,7 +94,10 @@ public:
         scratch.joints.clear();
         cut_.addCovered(from, to, scratch.cut, scratch.covered);
         const double deepest = std::max(edge.from.z, edge.to.z);
+        const Vec3d ends[2] = {edge.from, edge.to};
+        const NearBox box(ends);
         index_.visitNear(from, to, scratch.seen, [&](std::uint32_t f) {
+            if (!boxes_[f].meets(box) || (edge.faceSide == 0 && boxes_[f].leastDepth > deepest)) return true;
             const ViewFace& face = shapes_.faces[f];
             if (edge.faceSide != 0) addJoint(edge, length, face, scratch.joints);
             if (face.leastDepth > deepest) return true;
@@ -156,6 +189,7 @@ private:
     const JointRule& rule_;
     bool wantsHidden_;
     PlaneIndex index_;
+    std::vector<NearBox> boxes_;  // by face
 };
 
 void clipEdges(const std::vector<ViewEdge>& edges, const LineClipper& clipper, BeyondKind kind, int threads,

@@ -62,12 +62,17 @@ std::vector<ViewEdge> findPiercingLines(const std::vector<ViewFace>& faces) {
         for (std::uint32_t n = 0; n < faces[f].cornerCount; ++n) boxes[f].add(faces[f].corners[n]);
     const plane::BoxTree tree(boxes);
     std::vector<ViewEdge> lines;
-    for (std::uint32_t a = 0; a < faces.size(); ++a)
-        for (const std::uint32_t b : tree.findAll(boxes[a])) {
-            if (b <= a || faces[a].label == faces[b].label) continue;
+    std::vector<std::uint32_t> others;
+    for (std::uint32_t a = 0; a < faces.size(); ++a) {
+        others.clear();
+        tree.forEach(boxes[a], [&](std::uint32_t b) {
+            if (b > a && faces[a].label != faces[b].label) others.push_back(b);
+        });
+        std::sort(others.begin(), others.end());
+        for (const std::uint32_t b : others)
             if (const auto line = commonLine(faces[a], faces[b]))
                 lines.push_back({line->first, line->second, std::min(faces[a].label, faces[b].label), {}, 0, true});
-        }
+    }
     return lines;
 }
 

@@ -118,10 +118,11 @@ struct RoomHeight {
 
 std::vector<RoomHeight> roomHeights(const SectionDrawing& drawing, const volume::SemanticVolume& volume) {
     std::vector<RoomHeight> heights;
+    const BorderStrips strips(drawing);
     for (const SectionComponent& component : drawing.components) {
         if (!isRoomSpace(volume.labels.labels[component.label])) continue;
         for (const SectionPolygon& polygon : component.polygons) {
-            const auto [low, high] = findClearHeight(drawing, volume, polygon, component.label);
+            const auto [low, high] = findClearHeight(strips, volume, polygon, component.label);
             if (high - low >= kLowestRoom) heights.push_back({polygon.area, low, high});
         }
     }

@@ -12,6 +12,7 @@
 ///     |------------------------|        row 2: overall
 
 #include <svt/drawing/building_levels.hpp>
+#include <svt/drawing/dimension/border_strips.hpp>
 #include <svt/drawing/dimension/part_roles.hpp>
 #include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/section_drawing.hpp>
@@ -61,14 +62,16 @@ void addDimensions(SectionDrawing& drawing, const volume::SemanticVolume& volume
 
 /// Finds the clear width and depth of each room that a plan cuts: those that the largest part of the room has, between
 /// walls and other rooms. Furniture does not count. Rooms that are oblique, or narrower than 0.5 m, are omitted.
-/// Cost: O(rooms * borders).
+/// Cost: O(borders + rooms * borders at their heights).
 [[nodiscard]] std::vector<RoomDimension> findRoomDimensions(const SectionDrawing& drawing,
                                                             const volume::SemanticVolume& volume);
 
 /// The floor and the ceiling that the largest part of a room has in an upright section, v in metres. Under a slope, the
 /// lowest and the highest point.
-/// \param room  a label, and one of its polygons
-[[nodiscard]] std::pair<double, double> findClearHeight(const SectionDrawing& drawing,
+/// \param strips  of the section
+/// \param room    a label, and one of its polygons
+/// Cost: O(borders at the heights of the room).
+[[nodiscard]] std::pair<double, double> findClearHeight(const BorderStrips& strips,
                                                         const volume::SemanticVolume& volume,
                                                         const SectionPolygon& polygon, std::uint32_t room);
 

@@ -39,7 +39,7 @@ bool isMovable(const volume::Label& label) {
     return rank == model::ClassRank::Furniture || rank == model::ClassRank::Installation;
 }
 
-RoomBorders bordersOf(const SectionDrawing& drawing, const SectionPolygon& polygon, std::uint32_t room,
+RoomBorders bordersOf(const BorderStrips& strips, const SectionPolygon& polygon, std::uint32_t room,
                       const volume::SemanticVolume& volume) {
     constexpr double kFurniture = 1;  // metres of furniture along a wall
     RoomBorders borders;
@@ -56,14 +56,10 @@ RoomBorders bordersOf(const SectionDrawing& drawing, const SectionPolygon& polyg
     const auto isClear = [&](std::uint32_t label) {
         return label != volume::kNoLabel && (label == room || isMovable(volume.labels.labels[label]));
     };
-    for (const SectionBorder& border : drawing.borders) {
-        if (isClear(border.left) == isClear(border.right)) continue;
-        for (std::size_t n = 0; n + 1 < border.points.size(); ++n) {
-            const PlanePoint a = border.points[n], b = border.points[n + 1];
-            if (std::max(a.u, b.u) >= low.u - kFurniture && std::min(a.u, b.u) <= high.u + kFurniture &&
-                std::max(a.v, b.v) >= low.v - kFurniture && std::min(a.v, b.v) <= high.v + kFurniture)
-                borders.clear.push_back({a, b});
-        }
+    for (const auto& [border, a, b] : strips.between(low.v - kFurniture, high.v + kFurniture)) {
+        const bool isNear = std::max(a.u, b.u) >= low.u - kFurniture && std::min(a.u, b.u) <= high.u + kFurniture &&
+                            std::max(a.v, b.v) >= low.v - kFurniture && std::min(a.v, b.v) <= high.v + kFurniture;
+        if (isNear && isClear(border->left) != isClear(border->right)) borders.clear.push_back({a, b});
     }
     return borders;
 }
@@ -143,19 +139,20 @@ std::optional<RoomDimension> dimensionOf(const RoomBorders& borders, std::uint32
 
 std::vector<RoomDimension> findRoomDimensions(const SectionDrawing& drawing, const volume::SemanticVolume& volume) {
     std::vector<RoomDimension> found;
+    const BorderStrips strips(drawing);
     for (const SectionComponent& component : drawing.components) {
         if (!isRoomSpace(volume.labels.labels[component.label]) || component.polygons.empty()) continue;
         const SectionPolygon& largest = *std::ranges::max_element(component.polygons, {}, &SectionPolygon::area);
-        const RoomBorders borders = bordersOf(drawing, largest, component.label, volume);
+        const RoomBorders borders = bordersOf(strips, largest, component.label, volume);
         for (const bool isAlongU : {true, false})
             if (const auto dimension = dimensionOf(borders, component.label, isAlongU)) found.push_back(*dimension);
     }
     return found;
 }
 
-std::pair<double, double> findClearHeight(const SectionDrawing& drawing, const volume::SemanticVolume& volume,
+std::pair<double, double> findClearHeight(const BorderStrips& strips, const volume::SemanticVolume& volume,
                                           const SectionPolygon& polygon, std::uint32_t room) {
-    if (const auto common = dimensionOf(bordersOf(drawing, polygon, room, volume), room, false))
+    if (const auto common = dimensionOf(bordersOf(strips, polygon, room, volume), room, false))
         return {common->from.v, common->to.v};
     const auto [low, high] = std::ranges::minmax(polygon.outer, {}, &PlanePoint::v);
     return {low.v, high.v};

@@ -30,8 +30,11 @@ SideReader::SideReader(const SectionDrawing& drawing, const std::vector<PartRole
             addEdge(border.points[n], border.points[n + 1], border);
     // Windows and doors without a body close the opening too.
     for (const SectionLine& line : drawing.lines)
-        for (std::size_t n = 0; matterOf(line.label) == Matter::Filling && n + 1 < line.points.size(); ++n)
+        for (std::size_t n = 0; matterOf(line.label) == Matter::Filling && n + 1 < line.points.size(); ++n) {
+            const std::size_t count = edges_.size();
             addEdge(line.points[n], line.points[n + 1], {{}, line.label, line.label});
+            if (edges_.size() > count) edges_.back().isPane = true;
+        }
 }
 
 bool SideReader::read() {
@@ -265,10 +268,14 @@ std::uint32_t SideReader::roomBehind(std::span<const std::uint32_t> crossed, dou
         const SeenEdge& edge = edges_[crossed[n]];
         const double depth = edge.depthAt(at);
         if (depth - face > kThickestFace) break;
+        if (edge.isPane) {  // a pane in a wall, or at its inner side
+            ++n;
+            continue;
+        }
         // The stretch up to the next wall; furniture does not end it.
         std::size_t end = n;
         std::uint32_t room = hasSpaces_ ? kInWall : kOpenRoom;
-        for (; end < crossed.size() && !isSolid(edges_[crossed[end]].behind); ++end)
+        for (; end < crossed.size() && (edges_[crossed[end]].isPane || !isSolid(edges_[crossed[end]].behind)); ++end)
             if (room == kInWall && matterOf(edges_[crossed[end]].behind) == Matter::Space)
                 room = edges_[crossed[end]].behind;
         const std::size_t last = room == kInWall ? n : endOfRoom(crossed, n, end, room);

@@ -35,6 +35,7 @@ private:
     struct SeenEdge {
         double s0 = 0, t0 = 0, s1 = 0, t1 = 0;    // s0 < s1
         std::uint32_t behind = volume::kNoLabel;  // label on the far side
+        bool isPane = false;                      // a line of a window or a door, which bounds no room
         [[nodiscard]] double slope() const noexcept { return (t1 - t0) / (s1 - s0); }
         [[nodiscard]] double depthAt(double s) const noexcept { return t0 + slope() * (s - s0); }
     };

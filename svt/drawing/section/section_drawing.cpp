@@ -19,6 +19,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <unordered_map>
 
 namespace svt::drawing {
 namespace {
@@ -131,14 +132,14 @@ private:
     void addLineLengths() {
         std::vector<SectionComponent>& components = drawing_.components;
         const std::size_t areas = components.size();
+        std::unordered_map<std::uint32_t, std::size_t> numberOf;
+        for (std::size_t n = 0; n < areas; ++n) numberOf.emplace(components[n].label, n);
         for (const SectionLine& line : drawing_.lines) {
-            auto found = std::ranges::find(components, line.label, &SectionComponent::label);
-            if (found == components.end()) {
-                components.push_back({line.label, {}, 0, 0, true, 0});
-                found = std::prev(components.end());
-            }
+            const auto [found, isNew] = numberOf.emplace(line.label, components.size());
+            if (isNew) components.push_back({line.label, {}, 0, 0, true, 0});
+            SectionComponent& component = components[found->second];
             for (std::size_t n = 0; n + 1 < line.points.size(); ++n)
-                found->lineLength +=
+                component.lineLength +=
                     std::hypot(line.points[n + 1].u - line.points[n].u, line.points[n + 1].v - line.points[n].v);
         }
         if (components.size() != areas) std::ranges::sort(components, {}, &SectionComponent::label);

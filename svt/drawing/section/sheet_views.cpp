@@ -23,7 +23,22 @@ namespace {
 struct PlaceRange {
     double low = 0, size = 0;  // metres above the grid's lower corner
     double spread = 0.0571;    // between two of nine places, as a share of the size
+    double leastHull = 0;      // metres of height that the hull has in the section, if it is cut
 };
+
+// The height of the parts of the hull that a section cuts.
+double hullHeight(const SectionDrawing& drawing, const std::vector<PartRole>& roles) {
+    double low = kInfinity, high = -kInfinity;
+    for (const SectionComponent& component : drawing.components) {
+        if (roles[component.label] != PartRole::Hull) continue;
+        for (const SectionPolygon& polygon : component.polygons)
+            for (const PlanePoint p : polygon.outer) {
+                low = std::min(low, p.v);
+                high = std::max(high, p.v);
+            }
+    }
+    return std::max(0.0, high - low);
+}
 
 // Selects the plane that cuts most of the rooms and least of the walls along their length; nothing if none of nine
 // planes cuts a building.
@@ -64,7 +79,8 @@ Result<std::optional<double>> placeInRange(const volume::SemanticVolume& volume,
                 score += hasRooms ? -component.area : component.area + component.lineLength;
         }
         if (drawing->edgesInPlane > 0) score -= 1;
-        if (cutsBuilding && score > most + 0.5) {
+        const double hull = hullHeight(*drawing, roles);
+        if (cutsBuilding && score > most + 0.5 && (hull == 0 || hull >= range.leastHull)) {
             best = placeOf(n);
             most = score;
         }
@@ -73,17 +89,18 @@ Result<std::optional<double>> placeInRange(const volume::SemanticVolume& volume,
 }
 
 // The place of a section across an axis: through the stair, then through the ridge, then in the middle half of the main
-// building, then anywhere in it.
+// building, then anywhere in it. A stair outside, before the wall, shows nothing of the building.
 Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, const MainBuilding& main,
                               const DrawingTables& tables, int threads) {
+    constexpr double kHullShare = 0.5;  // of the height of the building
     std::vector<PlaceRange> ranges;
-    const auto add = [&](const Box3d& box, double spread) {
-        ranges.push_back({box.min[axis], box.size()[axis], spread});
+    const auto add = [&](const Box3d& box, double spread, double leastHull) {
+        ranges.push_back({box.min[axis], box.size()[axis], spread, leastHull});
     };
-    if (main.stair) add(*main.stair, 0.09);
-    if (main.ridge && main.ridge->size()[axis] > main.ridge->size()[1 - axis]) add(*main.ridge, 0.06);
-    add(main.box, 0.0571);
-    add(main.box, 0.12);
+    if (main.stair) add(*main.stair, 0.09, kHullShare * main.box.size().z);
+    if (main.ridge && main.ridge->size()[axis] > main.ridge->size()[1 - axis]) add(*main.ridge, 0.06, 0);
+    add(main.box, 0.0571, 0);
+    add(main.box, 0.12, 0);
     for (const PlaceRange& range : ranges) {
         SVT_TRY(place, placeInRange(volume, axis, range, tables, threads));
         if (*place) return **place;

@@ -88,6 +88,22 @@ TEST(SheetViews, SectionsGoThroughAStair) {
     EXPECT_TRUE(y > 4 && y < 5) << y;
 }
 
+// A room that reaches around the house, such as its gross area, has the stair in it: the section would show a landing.
+TEST(SheetViews, SectionsDoNotGoThroughAStairOutside) {
+    Boxes boxes = threeRooms();
+    boxes.addBox("south", "BuildingConstructiveElement", {0, 0, 0}, {8, 0.3, 6});
+    boxes.addBox("north", "BuildingConstructiveElement", {0, 5.7, 0}, {8, 6, 6});
+    boxes.addBox("gross area", "BuildingRoom", {0, -2, 0.2}, {8, 6, 2.7});
+    boxes.addBox("stair", "BuildingInstallation", {6, -1.5, 0.2}, {7, -0.5, 2.7});
+    boxes.volume.labels.labels.back().name = "Stair";
+    boxes.addBox("landing", "BuildingConstructiveElement", {6, -1.5, 2.7}, {7, -0.5, 2.9});
+    const auto chosen = chooseSheetViews(boxes.volume);
+    ASSERT_TRUE(chosen);
+    const double x = placeAlong(boxes, chosen->views[2], {1, 0, 0}), y = placeAlong(boxes, chosen->views[3], {0, 1, 0});
+    EXPECT_TRUE(x > 6 && x < 7) << x;
+    EXPECT_TRUE(y > 0.3 && y < 5.7) << y;
+}
+
 bool cutsSomething(const Boxes& boxes, const SheetView& view) {
     return !drawSection(boxes.volume, view.plane)->components.empty();
 }

@@ -19,6 +19,7 @@ constexpr double kMarginShare = 0.05, kLeastMargin = 1;  // of the building; met
 constexpr double kReachShare = 0.25, kLeastReach = 2;    // of the building; metres: parts within it belong to it
 constexpr double kSmallShare = 0.3;                      // of the building: larger parts belong to it
 constexpr double kPlotShare = 1.5;                       // of the building: larger slabs of the site are plots
+constexpr std::uint8_t kAround = 1, kPlant = 2;          // values of labelsAroundBuilding()
 
 struct CropBox {
     PlanePoint low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
@@ -187,15 +188,36 @@ void cropComponents(SectionDrawing& drawing, const CropBox& box) {
     }
 }
 
+// A plan has a tree or shrub whole or not at all. In elevations, it also hides what lies behind it, and is cut off.
+void leaveOutPlantsAtTheEdge(SectionDrawing& drawing, std::span<const std::uint8_t> isAround, const CropBox& box) {
+    constexpr double kUpright = 1 - 1e-9;
+    if (std::abs(normalized(drawing.plane.normal).z) < kUpright) return;
+    std::vector<std::uint8_t> isAtEdge(isAround.size(), 0);
+    visitPoints(drawing, [&](std::uint32_t label, PlanePoint p) {
+        if (isAround[label] == kPlant && !box.contains(p)) isAtEdge[label] = 1;
+    });
+    const auto isLeftOut = [&](std::uint32_t label) { return label != volume::kNoLabel && isAtEdge[label] != 0; };
+    std::erase_if(drawing.components, [&](const SectionComponent& part) { return isLeftOut(part.label); });
+    std::erase_if(drawing.lines, [&](const SectionLine& line) { return isLeftOut(line.label); });
+    std::erase_if(drawing.beyond, [&](const BeyondLine& line) { return isLeftOut(line.label); });
+    for (SectionBorder& border : drawing.borders)
+        for (std::uint32_t* const side : {&border.left, &border.right})
+            if (isLeftOut(*side)) *side = volume::kNoLabel;
+    std::erase_if(drawing.borders, [](const SectionBorder& border) { return border.left == border.right; });
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> labelsAroundBuilding(const volume::SemanticVolume& volume) {
     const std::vector<PartRole> roles = partRoles(volume.labels);
     const OutsideParts outside = findOutsideParts(volume, roles);
     std::vector<std::uint8_t> isAround;
-    for (const PartRole role : roles) isAround.push_back(role == PartRole::Surroundings ? 1 : 0);
+    for (std::size_t l = 0; l < roles.size(); ++l) {
+        const bool isPlant = volume.labels.labels[l].className == "SolitaryVegetationObject";
+        isAround.push_back(roles[l] != PartRole::Surroundings ? 0 : isPlant ? kPlant : kAround);
+    }
     for (const auto* parts : {&outside.plots, &outside.away})
-        for (const std::uint32_t label : *parts) isAround[label] = 1;
+        for (const std::uint32_t label : *parts) isAround[label] = kAround;
     return isAround;
 }
 
@@ -217,16 +239,17 @@ SectionDrawing croppedToBuilding(const SectionDrawing& drawing, std::span<const 
     bool isWithin = true;
     visitPoints(drawing, [&](std::uint32_t, PlanePoint p) { isWithin = isWithin && box.contains(p); });
     if (isWithin) return cropped;
+    leaveOutPlantsAtTheEdge(cropped, isAround, box);
     cropComponents(cropped, box);
-    cropped.borders.clear();
-    for (const SectionBorder& border : drawing.borders)
+    const auto borders = std::exchange(cropped.borders, {});
+    const auto lines = std::exchange(cropped.lines, {});
+    const auto beyond = std::exchange(cropped.beyond, {});
+    for (const SectionBorder& border : borders)
         for (auto& piece : piecesOf(border.points, box))
             cropped.borders.push_back({std::move(piece), border.left, border.right});
-    cropped.lines.clear();
-    for (const SectionLine& line : drawing.lines)
+    for (const SectionLine& line : lines)
         for (auto& piece : piecesOf(line.points, box)) cropped.lines.push_back({std::move(piece), line.label});
-    cropped.beyond.clear();
-    for (const BeyondLine& line : drawing.beyond)
+    for (const BeyondLine& line : beyond)
         if (const auto part = clipSegment(line.from, line.to, box.low, box.high))
             cropped.beyond.push_back({part->first, part->second, line.label, line.kind});
     return cropped;

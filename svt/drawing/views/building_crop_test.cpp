@@ -50,6 +50,28 @@ TEST(BuildingCrop, TerrainEndsBesideTheBuilding) {
     }
 }
 
+// The crop ends at 13 m: a plan has whole trees only, a section cuts them off.
+TEST(BuildingCrop, PlansHaveWholeTreesOnly) {
+    Boxes boxes = houseInItsGarden();
+    boxes.addBox("near", "SolitaryVegetationObject", {12.2, 1, 0}, {12.8, 2, 3});
+    boxes.addBox("at the edge", "SolitaryVegetationObject", {12.2, 3, 0}, {13.8, 4, 3});
+    boxes.addBox("hedge", "PlantCover", {12.2, 5, 0}, {13.8, 6, 3});
+    const auto areaOf = [&](const SectionDrawing& drawing, const std::string& id) {
+        for (const SectionComponent& component : drawing.components)
+            if (boxes.volume.labels.labels[component.label].id == id) return component.area;
+        return 0.0;
+    };
+    const SectionDrawing plan = croppedToBuilding(boxes.cut({0, 0, 1}, {0, 0, 1}), boxes.volume);
+    EXPECT_NEAR(areaOf(plan, "near"), 0.6, 1e-4);
+    EXPECT_EQ(areaOf(plan, "at the edge"), 0);
+    EXPECT_NEAR(areaOf(plan, "hedge"), 0.8, 1e-4);
+    for (const SectionBorder& border : plan.borders)
+        for (const std::uint32_t label : {border.left, border.right})
+            EXPECT_NE(label == volume::kNoLabel ? "" : boxes.volume.labels.labels[label].id, "at the edge");
+    const SectionDrawing section = croppedToBuilding(boxes.cut({0, -1, 0}, {0, 3.5, 0}), boxes.volume);
+    EXPECT_NEAR(areaOf(section, "at the edge"), 0.8 * 3, 1e-4);
+}
+
 TEST(BuildingCrop, WithoutSurroundingsOrWithoutABuildingNothingChanges) {
     Boxes house, hill;
     house.addBox("house", "Building", {0, 0, 0}, {8, 6, 3});

@@ -184,6 +184,26 @@ bool FreeSpace::hasSquare(const MarkBox& box, const Marks& marksOf) const {
     return false;
 }
 
+MarkRaster FreeSpace::marksIn(const MarkBox& box, bool withLines) const {
+    const std::int64_t left = tileOf(cellOf(box.low.u, 1), kTile), right = tileOf(cellOf(box.high.u, 1), kTile),
+                       low = cellOf(box.low.v, 1), high = cellOf(box.high.v, 1);
+    MarkRaster raster{left * kTile, low, static_cast<std::size_t>(right - left + 1), {}};
+    raster.rows.resize(raster.words * static_cast<std::size_t>(high - low + 1));
+    for (std::int64_t tileY = tileOf(low, kTile); tileY <= tileOf(high, kTile); ++tileY)
+        for (std::int64_t tileX = left; tileX <= right; ++tileX) {
+            const Tile* const tile = tileAt(tileX, tileY);
+            if (tile == nullptr) continue;
+            const std::int64_t top = std::min(high, (tileY + 1) * kTile - 1);
+            for (std::int64_t row = std::max(low, tileY * kTile); row <= top; ++row) {
+                const auto y = static_cast<std::size_t>(row - tileY * kTile);
+                raster
+                    .rows[static_cast<std::size_t>(row - low) * raster.words + static_cast<std::size_t>(tileX - left)] =
+                    tile->borders[y] | tile->taken[y] | (withLines ? tile->lines[y] : 0);
+            }
+        }
+    return raster;
+}
+
 bool FreeSpace::isTaken(const MarkBox& box) const {
     if (hasSquare(box, [](const Tile& tile, std::size_t y) { return tile.taken[y]; })) return true;
     bool found = false;
@@ -197,21 +217,33 @@ bool FreeSpace::isTaken(const MarkBox& box) const {
     return found;
 }
 
-bool FreeSpace::isClear(const MarkBox& box) const {
+bool FreeSpace::isClear(const MarkBox& box, Found& last) const {
     ++effort_.searches;
+    const auto meetsTaken = [&](std::uint32_t n) {
+        ++effort_.compared;
+        return overlap(box, taken_[n]);
+    };
+    const auto meetsSegment = [&](std::uint32_t n) {
+        ++effort_.compared;
+        const Segment& segment = segments_[n];
+        return overlap(segment.around, box) && meets(segment.from, segment.to, box);
+    };
+    if (last.taken != Found::kNone && meetsTaken(last.taken)) return false;
+    if (last.segment != Found::kNone && meetsSegment(last.segment)) return false;
     if (hasSquare(box, [](const Tile& tile, std::size_t y) { return tile.borders[y] | tile.lines[y] | tile.taken[y]; }))
         return false;
     bool clear = true;
     visitCells(box, [&](const Cell& cell) {
-        for (const std::uint32_t n : cell.taken) {
-            ++effort_.compared;
-            if (overlap(box, taken_[n])) return clear = false;
-        }
-        for (const std::uint32_t n : cell.segments) {
-            ++effort_.compared;
-            const Segment& segment = segments_[n];
-            if (overlap(segment.around, box) && meets(segment.from, segment.to, box)) return clear = false;
-        }
+        for (const std::uint32_t n : cell.taken)
+            if (meetsTaken(n)) {
+                last.taken = n;
+                return clear = false;
+            }
+        for (const std::uint32_t n : cell.segments)
+            if (meetsSegment(n)) {
+                last.segment = n;
+                return clear = false;
+            }
         return true;
     });
     return clear;
@@ -249,23 +281,32 @@ FreeSpace::Hits FreeSpace::hitsOf(const MarkBox& box, int mostLines) const {
     return hits;
 }
 
-bool FreeSpace::crossesTaken(PlanePoint from, PlanePoint to) const {
+bool FreeSpace::crossesTaken(PlanePoint from, PlanePoint to, Found& last) const {
     ++effort_.searches;
     const MarkBox around{{std::min(from.u, to.u) - kRounding, std::min(from.v, to.v) - kRounding},
                          {std::max(from.u, to.u) + kRounding, std::max(from.v, to.v) + kRounding}};
+    const auto meetsTaken = [&](std::uint32_t n) {
+        ++effort_.compared;
+        return overlap(around, taken_[n]) && meets(from, to, taken_[n]);
+    };
+    if (last.taken != Found::kNone && meetsTaken(last.taken)) return true;
     bool crosses = false;
+    std::optional<std::uint64_t> lastKey;
+    const Tile* tile = nullptr;
     visitAlong(from, to, kCell, [&](std::int64_t x, std::int64_t y) {
         const std::int64_t tileX = tileOf(x, kCells), tileY = tileOf(y, kCells);
-        const Tile* const tile = tileAt(tileX, tileY);
+        if (lastKey != keyOf(tileX, tileY)) {
+            lastKey = keyOf(tileX, tileY);
+            tile = tileAt(tileX, tileY);
+        }
         if (tile == nullptr) return true;
         for (const std::uint32_t n :
-             tile->cells[static_cast<std::size_t>((y - tileY * kCells) * kCells + x - tileX * kCells)].taken) {
-            ++effort_.compared;
-            if (overlap(around, taken_[n]) && meets(from, to, taken_[n])) {
+             tile->cells[static_cast<std::size_t>((y - tileY * kCells) * kCells + x - tileX * kCells)].taken)
+            if (meetsTaken(n)) {
+                last.taken = n;
                 crosses = true;
                 return false;
             }
-        }
         return true;
     });
     return crosses;

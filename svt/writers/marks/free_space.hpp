@@ -22,6 +22,13 @@ enum class Obstacle : std::uint8_t {
     Light    ///< dashed lines above and behind
 };
 
+/// Squares of 1 mm as rows of bits.
+struct MarkRaster {
+    std::int64_t left = 0, low = 0;   ///< the first square, millimetres
+    std::size_t words = 0;            ///< of a row, 64 squares each
+    std::vector<std::uint64_t> rows;  ///< from below
+};
+
 /// Obstacles are found by tiles of 64 mm: bits mark the squares of 1 mm that they meet, and cells of 8 mm list them. So
 /// a search looks at the obstacles near its rectangle, whatever the size of the drawing.
 class FreeSpace {
@@ -33,8 +40,14 @@ public:
     };
     /// The work so far: a measure of cost that does not depend on the machine.
     struct Effort {
-        std::uint64_t searches = 0;  ///< rectangles and leaders
+        std::uint64_t searches = 0;  ///< rectangles and leaders, also those that `BlockedPlaces` refused
         std::uint64_t compared = 0;  ///< obstacles and taken places that they were compared with
+    };
+
+    /// The obstacle that a search found. A search near by asks it first.
+    struct Found {
+        static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+        std::uint32_t segment = kNone, taken = kNone;
     };
 
     void add(drawing::PlanePoint from, drawing::PlanePoint to, Obstacle kind);
@@ -47,9 +60,23 @@ public:
     ///                   found so far
     [[nodiscard]] Hits hitsOf(const MarkBox& box, int mostLines = kAll) const;
     /// Whether a rectangle has no border, no line and no taken place.
-    [[nodiscard]] bool isClear(const MarkBox& box) const;
+    [[nodiscard]] bool isClear(const MarkBox& box) const {
+        Found last;
+        return isClear(box, last);
+    }
+    [[nodiscard]] bool isClear(const MarkBox& box, Found& last) const;
     /// Whether a line crosses a taken place. Cost: O(length + taken places near it).
-    [[nodiscard]] bool crossesTaken(drawing::PlanePoint from, drawing::PlanePoint to) const;
+    [[nodiscard]] bool crossesTaken(drawing::PlanePoint from, drawing::PlanePoint to) const {
+        Found last;
+        return crossesTaken(from, to, last);
+    }
+    [[nodiscard]] bool crossesTaken(drawing::PlanePoint from, drawing::PlanePoint to, Found& last) const;
+
+    /// The squares that borders, taken places and, if `withLines`, visible lines meet: a rectangle around one of them has
+    /// an obstacle. The raster covers the box and at most 63 columns beyond its sides. Cost: O(area in mm2 / 64).
+    [[nodiscard]] MarkRaster marksIn(const MarkBox& box, bool withLines) const;
+    /// Counts a rectangle that was refused without a search.
+    void countRefused() const noexcept { ++effort_.searches; }
 
     [[nodiscard]] const Effort& effort() const noexcept { return effort_; }
 

@@ -1,5 +1,7 @@
 #include <svt/writers/marks/room_stamps.hpp>
 
+#include <svt/writers/marks/blocked_places.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -105,6 +107,11 @@ MarkBox boxAt(PlanePoint center, std::pair<double, double> size) noexcept {
     return {{center.u - u, center.v - v}, {center.u + u, center.v + v}};
 }
 
+// The size of the box of a text.
+std::pair<double, double> sizeOfBox(std::pair<double, double> extent) noexcept {
+    return {extent.first + 2 * kAround, extent.second + 2 * kAround};
+}
+
 MarkPath ringOf(const MarkBox& box) {
     return {box.low, {box.high.u, box.low.v}, box.high, {box.low.u, box.high.v}, box.low};
 }
@@ -157,6 +164,8 @@ private:
 };
 
 class StampPlacer {
+    static constexpr std::size_t kNone = static_cast<std::size_t>(-1), kDirections = 72;
+
 public:
     StampPlacer(double millimetres, const MarkBox& allowed, FreeSpace& space, MarkShapes& shapes)
         : millimetres_(millimetres), allowed_(allowed), space_(space), shapes_(shapes) {
@@ -194,6 +203,7 @@ public:
     // \param mayCross  whether the leader may cross other rooms, and the stamp stand in them
     bool placeOutside(std::size_t room, const std::vector<std::string>& lines, bool mayCross) {
         if (!index_) index_.emplace(rooms_);
+        if (!cutIndex_) cutIndex_.emplace(cutParts_);
         const RoomOutline& outline = rooms_[room];
         const double u = 0.3 * (outline.box.high.u - outline.box.low.u),
                      v = 0.3 * (outline.box.high.v - outline.box.low.v);
@@ -205,38 +215,103 @@ public:
     }
 
 private:
+    static constexpr double kNearest = 6, kFarthest = 120, kStep = 2;  // millimetres from a dot to a stamp outside
+
+    // A place for a stamp outside that is clear of everything and not on a cut part.
+    struct LeaderPlace {
+        PlanePoint at, end;     // of the leader
+        bool isInside = false;  // meets another room
+        std::size_t direction = 0;
+        std::optional<bool> isCrossing;  // whether the leader crosses a text; found when it matters
+    };
+    // The places around a dot, by distance, as far as a search needed them: searches with other rules use them again.
+    struct LeaderPlaces {
+        PlanePoint from;
+        std::pair<double, double> extent;
+        std::vector<std::vector<LeaderPlace>> steps;
+        std::array<FreeSpace::Found, kDirections> inWay{}, acrossWay{};  // of the last place in each direction
+    };
+    // Those of one room, for one state of the space.
+    struct RoomPlaces {
+        std::size_t room = 0;
+        std::vector<std::pair<std::pair<double, double>, BlockedPlaces>> blocked;  // by extent
+        std::vector<LeaderPlaces> around;
+    };
+
     bool placeFrom(PlanePoint from, std::size_t room, const std::vector<std::string>& lines, bool mayCross) {
-        constexpr double kNearest = 6, kFarthest = 120, kStep = 2;  // millimetres
         constexpr double kOtherRoom = 60;  // millimetres that a place in another room counts more
         constexpr double kCrossed = 3;     // millimetres that a millimetre across another room counts more
         const double size = kStampSizes[1];
         const auto extent = sizeOfLines(lines, size);
-        std::optional<PlanePoint> best;
+        LeaderPlaces& around = placesAround(from, room, extent);
+        std::optional<LeaderPlace> best;
         double least = std::numeric_limits<double>::infinity();
-        for (int n = 0; kNearest + n * kStep <= std::min(kFarthest, least); ++n)
-            for (const PlanePoint direction : directions_) {
-                const double away = kNearest + n * kStep;
-                const PlanePoint at{from.u + away * direction.u, from.v + away * direction.v};
-                const MarkBox box = boxAt(at, extent);
-                if (away >= least || !isAllowed(box) || meets(from, from, box)) continue;
-                if (!space_.isClear(box) || space_.crossesTaken(from, endOf(from, box))) continue;
-                const bool isInside = meetsOtherRoom(box, room);
-                double cost = away + (isInside ? kOtherRoom : 0);
-                if (cost >= least || (isInside && !mayCross) || isOnCutPart(at)) continue;
+        for (std::size_t n = 0; awayAt(n) <= std::min(kFarthest, least); ++n) {
+            if (n == around.steps.size()) around.steps.push_back(placesAt(around, n, room));
+            for (LeaderPlace& place : around.steps[n]) {
+                const double away = awayAt(n);
+                double cost = away + (place.isInside ? kOtherRoom : 0);
+                if (cost >= least || (place.isInside && !mayCross)) continue;
+                if (!place.isCrossing)
+                    place.isCrossing = space_.crossesTaken(from, place.end, around.acrossWay[place.direction]);
+                if (*place.isCrossing) continue;
                 const double most = mayCross ? (least - cost) / kCrossed : 0;
-                cost += kCrossed * lengthInOtherRooms(from, endOf(from, box), room, most);
+                cost += kCrossed * lengthInOtherRooms(from, place.end, room, most);
                 if (cost >= least || (!mayCross && cost > away)) continue;
                 least = cost;
-                best = at;
+                best = place;
             }
+        }
         if (!best) return false;
-        const MarkBox box = boxAt(*best, extent);
-        const PlanePoint end = endOf(from, box);
-        write(*best, lines, size);
-        shapes_.thin.push_back({from, end});
-        space_.add(from, end, Obstacle::Border);
+        write(best->at, lines, size);
+        shapes_.thin.push_back({from, best->end});
+        space_.add(from, best->end, Obstacle::Border);
         addDot(from);
         return true;
+    }
+
+    [[nodiscard]] static double awayAt(std::size_t step) noexcept {
+        return kNearest + static_cast<double>(step) * kStep;
+    }
+
+    LeaderPlaces& placesAround(PlanePoint from, std::size_t room, std::pair<double, double> extent) {
+        if (!tried_ || tried_->room != room) tried_ = RoomPlaces{room, {}, {}};
+        for (LeaderPlaces& around : tried_->around)
+            if (around.from.u == from.u && around.from.v == from.v && around.extent == extent) return around;
+        return tried_->around.emplace_back(LeaderPlaces{from, extent, {}, {}, {}});
+    }
+
+    // Where stamps of a size cannot stand around a room.
+    const BlockedPlaces& blockedAround(std::size_t room, std::pair<double, double> extent) {
+        for (const auto& [size, blocked] : tried_->blocked)
+            if (size == extent) return blocked;
+        const MarkBox& own = rooms_[room].box;
+        const double u = extent.first + kFarthest, v = extent.second + kFarthest;
+        const MarkBox reach{{std::max(own.low.u - u, allowed_.low.u), std::max(own.low.v - v, allowed_.low.v)},
+                            {std::min(own.high.u + u, allowed_.high.u), std::min(own.high.v + v, allowed_.high.v)}};
+        tried_->blocked.emplace_back(extent, BlockedPlaces(space_, reach, sizeOfBox(extent), true));
+        return tried_->blocked.back().second;
+    }
+
+    [[nodiscard]] std::vector<LeaderPlace> placesAt(LeaderPlaces& around, std::size_t step, std::size_t room) {
+        const BlockedPlaces& blocked = blockedAround(room, around.extent);
+        const PlanePoint from = around.from;
+        const double away = awayAt(step);
+        std::vector<LeaderPlace> places;
+        for (std::size_t n = 0; n < kDirections; ++n) {
+            const PlanePoint at{from.u + away * directions_[n].u, from.v + away * directions_[n].v};
+            const MarkBox box = boxAt(at, around.extent);
+            if (!isAllowed(box)) continue;
+            if (blocked.isBlocked(box)) {
+                space_.countRefused();
+                continue;
+            }
+            if (meets(from, from, box) || !space_.isClear(box, around.inWay[n])) continue;
+            const PlanePoint end = endOf(from, box);
+            if (cutIndex_->isInOther(at, kNone)) continue;
+            places.push_back({at, end, meetsOtherRoom(box, room), n, {}});
+        }
+        return places;
     }
 
     [[nodiscard]] bool isAllowed(const MarkBox& box) const noexcept {
@@ -250,10 +325,6 @@ private:
                         {box.low.u + u * (box.high.u - box.low.u), box.low.v + v * (box.high.v - box.low.v)}, own))
                     return true;
         return false;
-    }
-    [[nodiscard]] bool isOnCutPart(PlanePoint p) const noexcept {
-        return std::any_of(cutParts_.begin(), cutParts_.end(),
-                           [&](const RoomOutline& part) { return part.contains(p); });
     }
     // The length of a leader within other rooms, in steps of a millimetre; more than `most` need not be exact.
     [[nodiscard]] double lengthInOtherRooms(PlanePoint from, PlanePoint to, std::size_t own,
@@ -281,6 +352,7 @@ private:
         if (extent.first + 2 * kAround > room.box.high.u - room.box.low.u ||
             extent.second + 2 * kAround > room.box.high.v - room.box.low.v)
             return std::nullopt;
+        const BlockedPlaces blocked(space_, room.box, sizeOfBox(extent), mostLines == 0);
         const RoomOutline::Place* best = nullptr;
         double least = std::numeric_limits<double>::infinity();
         // With lines or without, a place costs at least its distance.
@@ -290,7 +362,12 @@ private:
         for (const RoomOutline::Place& place : room.places()) {
             if (place.away > least) break;
             const MarkBox box = boxAt(place.at, extent);
-            if (isWorse(place.away, place) || !room.contains(box)) continue;
+            if (isWorse(place.away, place)) continue;
+            if (blocked.isBlocked(box)) {
+                space_.countRefused();
+                continue;
+            }
+            if (!room.contains(box)) continue;
             const FreeSpace::Hits hits = space_.hitsOf(box, mostLines);
             if (hits.isTaken || hits.borders > 0 || hits.lines > mostLines) continue;
             const double cost = place.away + kLineCost * hits.lines + kLightCost * hits.light;
@@ -303,6 +380,7 @@ private:
 
     void write(PlanePoint center, const std::vector<std::string>& lines, double size) {
         const MarkBox box = boxAt(center, sizeOfLines(lines, size));
+        tried_.reset();
         space_.take(box);
         shapes_.masks.push_back(ringOf(box));
         double baseline = box.high.v - kAround - 0.85 * size;
@@ -321,13 +399,14 @@ private:
         shapes_.filled.push_back(std::move(dot));
     }
 
-    std::array<PlanePoint, 72> directions_;  // of leaders
+    std::array<PlanePoint, kDirections> directions_;  // of leaders
     double millimetres_;
     const MarkBox& allowed_;
     FreeSpace& space_;
     MarkShapes& shapes_;
     std::vector<RoomOutline> rooms_, cutParts_;
-    std::optional<RoomIndex> index_;  // of all rooms, made for the first leader
+    std::optional<RoomIndex> index_, cutIndex_;  // of all rooms and cut parts, made for the first leader
+    std::optional<RoomPlaces> tried_;
 };
 
 // Two lines: the first, and the others joined.

@@ -2,6 +2,7 @@
 /// the number of rooms and no faster.
 
 #include <svt/drawing/clip_segment.hpp>
+#include <svt/writers/marks/blocked_places.hpp>
 #include <svt/writers/marks/room_stamps.hpp>
 
 #include <fmt/format.h>
@@ -109,6 +110,33 @@ TEST(FreeSpace, FindsWhatASearchOfAllObstaclesFinds) {
     }
     EXPECT_GT(clear, 1000);
     EXPECT_GT(taken, 500);
+}
+
+// One bit refuses most places that have an obstacle, and no others.
+TEST(BlockedPlaces, RefuseOnlyWhatASearchRefuses) {
+    constexpr double kReach = 150;
+    BothSpaces spaces;
+    spaces.addAll(300, kReach);
+    for (const auto& [width, height] :
+         {std::pair(8.0, 3.0), {21.7, 4.3}, {64.0, 64.0}, {150.2, 9.9}, {2.0, 2.0}, {1.9, 9.0}}) {
+        const BlockedPlaces all(spaces.fast, {{-kReach, -100}, {kReach, 130.5}}, {width, height}, true),
+            solid(spaces.fast, {{-kReach, -100}, {kReach, 130.5}}, {width, height}, false);
+        int refused = 0, notClear = 0;
+        for (int n = 0; n < 4000; ++n) {
+            PlanePoint low = spaces.point(1.2 * kReach);
+            if (n % 7 == 0) low = {std::round(low.u), std::round(low.v)};
+            const MarkBox box{low, {low.u + width, low.v + height}};
+            const FreeSpace::Hits plain = spaces.plain.hitsOf(box);
+            ASSERT_FALSE(all.isBlocked(box) && plain.isClear()) << width << ' ' << n;
+            ASSERT_FALSE(solid.isBlocked(box) && !plain.isTaken && plain.borders == 0) << width << ' ' << n;
+            ASSERT_FALSE(solid.isBlocked(box) && !all.isBlocked(box)) << width << ' ' << n;
+            refused += all.isBlocked(box) ? 1 : 0;
+            notClear += plain.isClear() ? 0 : 1;
+        }
+        // Rectangles below 3 mm may contain no whole square.
+        EXPECT_EQ(refused > 0, width > 2 && height > 2) << width;
+        EXPECT_TRUE(width < 8 || refused > notClear / 5) << width;
+    }
 }
 
 constexpr double kPerMetre = 10;  // on paper per metre

@@ -343,6 +343,10 @@ TEST(RoomStamps, HaveNumberHeightAndFloorFinish) {
     EXPECT_EQ(floorFinish(house.volume.labels, 3), "Oak");
     house.volume.labels.labels[3].attributes.back().value = std::string("FloorCovering");
     EXPECT_EQ(floorFinish(house.volume.labels, 3), "") << "a template";
+    for (const char* nothing : {"n/a", "N/A", "None", "-"}) {
+        house.volume.labels.labels[3].attributes.back().value = std::string(nothing);
+        EXPECT_EQ(floorFinish(house.volume.labels, 3), "") << nothing;
+    }
     house.volume.labels.labels[3].attributes.pop_back();
     EXPECT_EQ(floorFinish(house.volume.labels, 3), "");
 }

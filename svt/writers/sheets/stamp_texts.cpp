@@ -37,6 +37,14 @@ std::string heightLine(const drawing::RoomArea& room, SheetLanguage language) {
     return fmt::format("h {}{} m", isLevel ? "" : "\u2264 ", numberText(room.height, 2, language));
 }
 
+// Words that people and programs write where there is no value.
+bool isNoValue(const std::string& text) {
+    constexpr std::string_view kTexts[] = {"n/a",   "na",   "n.a.", "none",      "tbd",    "tbc",
+                                           "-",     "--",   "?",    "undefined", "<none>", "nicht definiert",
+                                           "keine", "k.a.", "k. a."};
+    return text.empty() || std::find(std::begin(kTexts), std::end(kTexts), lowerAscii(text)) != std::end(kTexts);
+}
+
 }  // namespace
 
 std::string floorFinish(const volume::LabelTable& table, std::uint32_t room) {
@@ -47,7 +55,7 @@ std::string floorFinish(const volume::LabelTable& table, std::uint32_t room) {
         const std::string name = lowerAscii(attribute.name.substr(attribute.name.rfind('.') + 1));
         const std::string* text = std::get_if<std::string>(&attribute.value);
         // Templates repeat the name of the property as its value.
-        if (text != nullptr && !text->empty() && lowerAscii(*text) != name &&
+        if (text != nullptr && !isNoValue(*text) && lowerAscii(*text) != name &&
             std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames))
             return *text;
     }
