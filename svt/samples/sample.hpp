@@ -11,8 +11,10 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace svt::samples {
@@ -49,6 +51,7 @@ struct SampleOptions {
     double turnDegrees = 0;              ///< rotation in plan about the model's centre, counter-clockwise, -360..360
     Vec3d origin{500000, 5400000, 100};  ///< world position of the plan's south-west corner on the ground floor before
                                          ///< the rotation, EPSG:25832, metres, rounded to mm; each within +-1e7
+    std::optional<std::uint64_t> change{};  ///< house only: a seed of edits, see describeChanges()
     bool thematic = false;  ///< CityGML 2.0 only: the classical LoD4 model, with boundary surfaces, outer hull and
                             ///< rooms but without solids for walls, slabs, beams and roof members
 };
@@ -81,6 +84,46 @@ struct SampleComponent {
     [[nodiscard]] bool contains(Vec3d point) const;
 };
 
+/// An edit of one component of the house.
+enum class SampleEdit : std::uint8_t {
+    Move,       ///< by 5 to 150 mm along one to three axes
+    Rotate,     ///< by a quarter turn about the vertical through its centre
+    Resize,     ///< by 5 to 24 mm at one side
+    Hole,       ///< 100 x 100 mm, through the component
+    Delete,     ///< from the file
+    Duplicate,  ///< with another id, 300 to 445 mm away along one to three axes
+    Reclass,    ///< furniture becomes an installation
+    Rename      ///< another name
+};
+constexpr auto namesOf(SampleEdit) {
+    using enum SampleEdit;
+    return std::to_array<Name<SampleEdit>>({{Move, "move"},
+                                            {Rotate, "rotate"},
+                                            {Resize, "resize"},
+                                            {Hole, "hole"},
+                                            {Delete, "delete"},
+                                            {Duplicate, "duplicate"},
+                                            {Reclass, "reclass"},
+                                            {Rename, "rename"}});
+}
+
+/// The known answer of one edit.
+struct SampleChange {
+    SampleEdit edit = SampleEdit::Move;
+    std::optional<std::string> was, is;  ///< ids; empty: the component was duplicated or deleted
+    std::optional<Vec3d> vector;         ///< world, metres, of a move
+    double added = 0, removed = 0;       ///< m3 of the new shape outside of the old one, and the reverse
+    std::pair<std::string, std::string> className{}, name{};  ///< old and new; classes of CityGML 3.0
+};
+
+/// All differences between a house with SampleOptions::change and the one without it.
+struct SampleChanges {
+    std::vector<SampleChange> edits;  ///< one to four, of different components
+    bool hasNewIds = false;           ///< of all components; edits have the new ones
+    bool hasNewTriangles = false;     ///< rectangles of furniture and installations are four triangles; not in IFC
+    bool isReordered = false;         ///< components come in another order
+};
+
 /// Receives a part of the output; false stops writing.
 using SampleSink = std::function<bool(std::string_view)>;
 
@@ -98,5 +141,11 @@ Result<void> writeSample(SampleKind kind, SampleFormat format, const SampleOptio
 /// stairs are inside rooms; a unit contains its rooms and inner walls.
 /// \return the components, or Code::BadArgument for an option out of range or a district of more than 10,000 houses
 [[nodiscard]] Result<std::vector<SampleComponent>> describeSample(SampleKind kind, const SampleOptions& options);
+
+/// The known answer of SampleOptions::change. Volumes are exact to rounding, because only unions and differences of boxes
+/// with whole millimetres are edited.
+/// \param format  decides the ids: IFC has other ones
+/// \return the edits, or Code::BadArgument for an option out of range, or without a change
+[[nodiscard]] Result<SampleChanges> describeChanges(SampleKind kind, SampleFormat format, const SampleOptions& options);
 
 }  // namespace svt::samples

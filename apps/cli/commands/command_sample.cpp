@@ -1,5 +1,6 @@
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
+#include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
@@ -17,7 +18,7 @@ namespace {
 struct SampleArguments {
     samples::SampleKind kind = samples::SampleKind::House;
     std::optional<samples::SampleFormat> format;
-    std::filesystem::path output;
+    std::filesystem::path output, changeList;
     samples::SampleOptions options;
 };
 
@@ -29,7 +30,55 @@ samples::SampleFormat formatOf(const SampleArguments& arguments) {
     return ending == ".ifc" ? Ifc4 : ending == ".jsonl" ? CityJsonSeq2 : ending == ".json" ? CityJson2 : CityGml3;
 }
 
+// The word of `svt diff` for an edit. With other ids too, another class means that another object has the space.
+std::string_view changeOf(samples::SampleEdit edit, bool hasNewIds) {
+    using enum samples::SampleEdit;
+    switch (edit) {
+        case Move: return "moved";
+        case Rotate:
+        case Resize:
+        case Hole: return "changed";
+        case Delete: return "removed";
+        case Duplicate: return "added";
+        case Reclass: return hasNewIds ? "reassigned" : "same";
+        case Rename: break;
+    }
+    return "same";
+}
+
+Json changeJson(const samples::SampleChange& change, bool hasNewIds) {
+    const auto ids = [](const std::optional<std::string>& id) { return id ? Json{*id} : Json::array(); };
+    Json json;
+    json["edit"] = nameOf(change.edit);
+    json["change"] = changeOf(change.edit, hasNewIds);
+    json["old"] = ids(change.was);
+    json["new"] = ids(change.is);
+    json["vector"] = change.vector ? Json{change.vector->x, change.vector->y, change.vector->z} : Json();
+    json["added"] = change.added;
+    json["removed"] = change.removed;
+    Json& properties = json["properties"] = Json::object();
+    if (!change.was || !change.is) return json;
+    if (change.className.first != change.className.second)
+        properties["class"] = {change.className.first, change.className.second};
+    if (change.name.first != change.name.second) properties["name"] = {change.name.first, change.name.second};
+    return json;
+}
+
+Result<void> writeChangeList(const SampleArguments& arguments) {
+    SVT_TRY(changes, samples::describeChanges(arguments.kind, formatOf(arguments), arguments.options));
+    Json json;
+    Json& rows = json["rows"] = Json::array();
+    for (const samples::SampleChange& change : changes->edits) rows.push_back(changeJson(change, changes->hasNewIds));
+    json["newIds"] = changes->hasNewIds;
+    json["newTriangles"] = changes->hasNewTriangles;
+    json["reordered"] = changes->isReordered;
+    SVT_DO(writeFileAtomically(arguments.changeList, json.dump(2) + "\n"));
+    return {};
+}
+
 Result<int> runSample(const SampleArguments& arguments) {
+    if (!arguments.changeList.empty() && !arguments.options.change)
+        return Error(Code::BadArgument, "--change-list needs --change with a seed");
     SVT_TRY(file, AtomicFile::create(arguments.output));
     std::optional<Error> writeError;
     const TerminalProgress progress;
@@ -45,6 +94,7 @@ Result<int> runSample(const SampleArguments& arguments) {
     if (writeError) return *writeError;
     if (!written) return written.error();
     SVT_DO(file->commit());
+    if (!arguments.changeList.empty()) SVT_DO(writeChangeList(arguments));
     return kDone;
 }
 
@@ -75,6 +125,10 @@ Members<SampleArguments> membersOf(const SampleArguments*) noexcept {
             "--turn", "turn in plan", {.unit = "degrees counter-clockwise", .least = -360, .most = 360}),
         member<&All::options, &SampleOptions::thematic>("--thematic",
                                                         "CityGML 2.0: walls only as surfaces, as in LoD4"),
+        member<&All::options, &SampleOptions::change>("--change", "house: seed of edits, for known answers of svt diff",
+                                                      {.value = "SEED", .least = 0}),
+        member<&All::changeList>("--change-list", "file for the known answer of --change (.json)",
+                                 {.value = "FILE", .file = FileUse::Output, .formats = "json"}),
         quietOption<All>(),
     };
     return kMembers;

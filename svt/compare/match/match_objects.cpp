@@ -98,8 +98,10 @@ private:
             if (isUsedOfWas_[candidate.was] == 0 && isUsedOfIs_[candidate.is] == 0) use(candidate.was, candidate.is);
     }
 
-    // Whether ids say that both belong to other objects: one with the same id is alike, so it moved.
+    // Whether ids say that both belong to other objects: one with the same id is alike, so it moved. Surfaces do not move
+    // on their own, and exports number them anew.
     [[nodiscard]] bool belongElsewhere(std::uint32_t was, std::uint32_t is) const {
+        if (!sides_.wasShapes[was].isSolid) return false;
         const std::uint32_t next = find(byIdOfIs_, wasLabel(was).id), before = find(byIdOfWas_, isLabel(is).id);
         const auto moved = [&](std::uint32_t a, std::uint32_t b) {
             return a != kNone && b != kNone && wasLabel(a).className == isLabel(b).className &&
@@ -279,12 +281,18 @@ private:
             matchInOrder(was, is);
             return;
         }
-        std::vector<Candidate> candidates;
+        std::vector<Candidate> moved, turned;
         for (const std::uint32_t s : was)
-            for (const std::uint32_t t : is)
-                if (areAlike(sides_.wasShapes[s], sides_.isShapes[t], options_.tolerance))
-                    candidates.push_back(candidateOf(s, t));
-        takeBest(candidates);
+            for (const std::uint32_t t : is) {
+                const Shape &a = sides_.wasShapes[s], &b = sides_.isShapes[t];
+                if (areAlike(a, b, options_.tolerance))
+                    moved.push_back(candidateOf(s, t));
+                else if (length(a.center - b.center) <= length(a.box.size()) &&
+                         areAlikeTurned(a, b, options_.tolerance))
+                    turned.push_back(candidateOf(s, t));
+            }
+        takeBest(moved);
+        takeBest(turned);
     }
 
     // Many equal objects: a translation keeps their order in space.

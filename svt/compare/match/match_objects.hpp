@@ -29,6 +29,7 @@ struct Sides {
 /// 3. ids
 /// 4. most common space per united space
 /// 5. shapes that are alike elsewhere, the nearest first
+/// 6. closed meshes that are alike after a rotation, within the size of the object
 /// \param spaces  exact common volumes
 /// \param voxels  common voxels, for shapes without a closed mesh
 [[nodiscard]] std::vector<Match> matchObjects(const Sides& sides, const CompareOptions& options,

@@ -149,6 +149,20 @@ TEST(Comparison, FindsMoves) {
         }
 }
 
+// A box with another id that a quarter turn about its centre makes of the first one.
+TEST(Comparison, FindsRotatedObjectsWithOtherIds) {
+    const TestBox table{"table", "Furniture", {0, 0, 0}, {3, 0.4, 0.7}};
+    const TestBox turned{"t2", "Furniture", {1.3, -1.3, 0}, {1.7, 1.7, 0.7}};
+    const TestBox wider{"t2", "Furniture", {1.3, -1.4, 0}, {1.7, 1.6, 0.75}};
+    const Compared compared({kSlab, table}, {kSlab, turned});
+    const ComparisonRow& row = compared.row("t2");
+    ASSERT_EQ(row.change, Change::Changed);
+    EXPECT_EQ(row.was.size(), 1u);
+    EXPECT_NEAR(row.added.value_or(0), 2.6 * 0.4 * 0.7, 1e-4);
+    EXPECT_NEAR(row.removed.value_or(0), 2.6 * 0.4 * 0.7, 1e-4);
+    EXPECT_EQ(Compared({kSlab, table}, {kSlab, wider}).row("t2").change, Change::Added);
+}
+
 TEST(Comparison, KeepsMovesBelowTheTolerance) {
     TestBox moved = kWall;
     moved.min.y += 0.005;
@@ -476,6 +490,8 @@ TEST(Shapes, OfTurnedObjectsAreNotAlike) {
     ASSERT_EQ(shapes.size(), 3u);
     EXPECT_FALSE(areAlike(shapes[0], shapes[1], 0.01));
     EXPECT_TRUE(areAlike(shapes[0], shapes[2], 0.01));
+    EXPECT_TRUE(areAlikeTurned(shapes[0], shapes[1], 0.01));
+    EXPECT_TRUE(areAlikeTurned(shapes[0], shapes[2], 0.01));
 }
 
 // Two plates farther apart have the same area, volume and centre. Only one moment differs.
@@ -498,6 +514,7 @@ TEST(Shapes, OfPartsFartherApartAreNotAlike) {
         ASSERT_EQ(far.size(), 1u);
         EXPECT_NEAR(near[0].area, far[0].area, 1e-6);
         EXPECT_FALSE(areAlike(near[0], far[0], 0.01));
+        EXPECT_FALSE(areAlikeTurned(near[0], far[0], 0.01));
         EXPECT_FALSE(agreeWithin(near[0], far[0], 0.01, far[0].center - near[0].center));
         EXPECT_TRUE(areAlike(near[0], near[0], 0.01));
     }

@@ -153,7 +153,8 @@ void GeometryMeasurer::measureFaces(const Match& match, ComparisonRow& row) cons
     const double rest = distanceBetween(a, treeOfA, b, treeOfB, vector);
     const double volumes = a.volume && b.volume ? std::abs(*a.volume - *b.volume) : 0;
     const double most = std::min(options_.tolerance, std::max(1e-4, length(vector) / 20));
-    if (rest <= most && volumes <= most * std::min(a.area, b.area) && agreeWithin(a, b, rest, vector)) {
+    const double rounding = sides_.was.vectors.unit + sides_.is.vectors.unit;  // of points, at two places
+    if (rest <= most && volumes <= most * std::min(a.area, b.area) && agreeWithin(a, b, rest + rounding, vector)) {
         row.change = Change::Moved;
         row.vector = vector;
     }

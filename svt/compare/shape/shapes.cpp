@@ -132,6 +132,21 @@ bool agreeWithin(const Shape& a, const Shape& b, double distance, Vec3d shift) n
     return true;
 }
 
+namespace {
+
+// Coefficients of the characteristic polynomial of a symmetric matrix: they do not change with a rotation.
+struct Invariants {
+    double trace = 0, minors = 0, determinant = 0;
+};
+
+Invariants invariantsOf(const std::array<double, 6>& moments) noexcept {
+    const auto [xx, yy, zz, xy, yz, zx] = moments;
+    return {xx + yy + zz, xx * yy + yy * zz + zz * xx - xy * xy - yz * yz - zx * zx,
+            xx * yy * zz + 2 * xy * yz * zx - xx * yz * yz - yy * zx * zx - zz * xy * xy};
+}
+
+}  // namespace
+
 bool areAlike(const Shape& a, const Shape& b, double tolerance) noexcept {
     if (a.isSolid != b.isSolid || a.faces.triangles.empty() != b.faces.triangles.empty()) return false;
     if (a.faces.triangles.empty()) return a.voxels == b.voxels && length(a.box.size() - b.box.size()) <= tolerance;
@@ -143,6 +158,18 @@ bool areAlike(const Shape& a, const Shape& b, double tolerance) noexcept {
     for (std::size_t m = 0; m < 6; ++m)
         if (std::abs(a.moments[m] - b.moments[m]) > areaOff * size * size) return false;
     return !a.volume || std::abs(*a.volume - *b.volume) <= tolerance * (a.area + b.area) + 1e-9 * std::abs(*a.volume);
+}
+
+bool areAlikeTurned(const Shape& a, const Shape& b, double tolerance) noexcept {
+    if (!a.volume || !b.volume) return false;
+    const double size = std::max(length(a.box.size()), length(b.box.size())) + tolerance;
+    const double areaOff = tolerance * size * 8 + 1e-9 * (a.area + b.area);
+    if (std::abs(a.area - b.area) > areaOff) return false;
+    if (std::abs(*a.volume - *b.volume) > tolerance * (a.area + b.area) + 1e-9 * std::abs(*a.volume)) return false;
+    const Invariants ofA = invariantsOf(a.moments), ofB = invariantsOf(b.moments);
+    const double off = areaOff * size * size, most = std::max(ofA.trace, ofB.trace);
+    return std::abs(ofA.trace - ofB.trace) <= off && std::abs(ofA.minors - ofB.minors) <= off * most &&
+           std::abs(ofA.determinant - ofB.determinant) <= off * most * most;
 }
 
 bool areAtOnePlace(const Shape& a, const Shape& b, double tolerance) noexcept {

@@ -54,6 +54,10 @@ struct Shape {
 /// Whether one shape may be the other, moved: areas, moments and closed volumes agree within rounding and `tolerance`.
 [[nodiscard]] bool areAlike(const Shape& a, const Shape& b, double tolerance) noexcept;
 
+/// Whether one closed mesh may be the other, rotated and moved: areas, volumes and the invariants of the second moments
+/// agree.
+[[nodiscard]] bool areAlikeTurned(const Shape& a, const Shape& b, double tolerance) noexcept;
+
 /// Whether the shapes are alike and at the same place, within `tolerance` metres.
 [[nodiscard]] bool areAtOnePlace(const Shape& a, const Shape& b, double tolerance) noexcept;
 

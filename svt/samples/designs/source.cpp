@@ -130,6 +130,9 @@ std::vector<Attribute> Document::attributesOf(const PlacedPlan& placed, int comp
 
 Result<SampleSource> SampleSource::make(SampleKind kind, const SampleOptions& options) {
     if (const Result<void> check = checkOptions(options); !check) return check.error();
+    if (options.change && kind != SampleKind::House)
+        return Error(Code::BadArgument,
+                     fmt::format("a {} cannot be changed; only the house has edits with known answers", nameOf(kind)));
     return SampleSource(kind, options);
 }
 
@@ -161,6 +164,7 @@ int SampleSource::decimals() const { return kind_ == SampleKind::District || !mo
 Document SampleSource::house() {
     const auto [it, isNew] = plans_.try_emplace("house");
     if (isNew) it->second = housePlan();
+    if (isNew && options_.change) changes_ = changePlan(it->second, *options_.change);
     Document document;
     document.id = "house";
     document.name = "Sample house";

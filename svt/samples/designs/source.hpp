@@ -3,6 +3,7 @@
 /// Input of the writers: buildings composed of placed plans, one after the other.
 
 #include <svt/samples/designs/designs.hpp>
+#include <svt/samples/designs/plan_changes.hpp>
 #include <svt/samples/parts/placement.hpp>
 #include <svt/samples/sample.hpp>
 
@@ -66,6 +67,8 @@ public:
     /// Corners of a box around everything, in units of 10^-decimals().
     [[nodiscard]] std::array<WorldPoint, 2> envelope();
     [[nodiscard]] Point origin() const { return origin_; }
+    /// The edits of the house; empty before building() and without SampleOptions::change.
+    [[nodiscard]] const PlanChanges& changes() const { return changes_; }
 
     /// The ground of a district, counter-clockwise from above; empty for the other samples.
     [[nodiscard]] std::vector<WorldPoint> ground() const;
@@ -84,6 +87,7 @@ private:
     Rotation modelRotation_;
     std::map<std::string, Plan> plans_;
     std::map<VillageHouse, Plan> villagePlans_;
+    PlanChanges changes_;
 };
 
 }  // namespace svt::samples

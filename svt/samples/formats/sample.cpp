@@ -116,4 +116,32 @@ Result<std::vector<SampleComponent>> describeSample(SampleKind kind, const Sampl
     return result;
 }
 
+Result<SampleChanges> describeChanges(SampleKind kind, SampleFormat format, const SampleOptions& options) {
+    if (!options.change) return Error(Code::BadArgument, "the seed of a change is missing");
+    SVT_TRY(source, SampleSource::make(kind, options));
+    const Document document = source->building(0);
+    const PlacedPlan& placed = document.plans.front();
+    const PlanChanges& changes = source->changes();
+    const auto idOf = [&](const std::optional<std::string>& inPlan) {
+        if (!inPlan) return std::optional<std::string>();
+        const std::string id = placed.prefix + *inPlan;
+        return std::optional<std::string>(format == SampleFormat::Ifc4 ? globalId(id) : id);
+    };
+    SampleChanges described{
+        {}, changes.hasNewIds, changes.hasNewTriangles && format != SampleFormat::Ifc4, changes.isReordered};
+    for (const PlanChange& change : changes.edits) {
+        SampleChange& row = described.edits.emplace_back();
+        row.edit = change.edit;
+        row.was = idOf(change.was);
+        row.is = idOf(change.is);
+        if (change.edit == SampleEdit::Move)
+            row.vector = placed.placement.worldDirection(toDouble(change.vector)) / 1000.0;
+        row.added = double(change.added) * 1e-9;
+        row.removed = double(change.removed) * 1e-9;
+        row.className = change.className;
+        row.name = change.name;
+    }
+    return described;
+}
+
 }  // namespace svt::samples

@@ -15,6 +15,8 @@ void writeCityGml2(SampleSource& source, bool isThematic, TextSink& out);
 void writeCityJson(SampleSource& source, TextSink& out);
 void writeCityJsonSeq(SampleSource& source, TextSink& out);
 void writeIfc(SampleSource& source, TextSink& out);  ///< ifc/ifc_writer.cpp
+/// A GlobalId (22 characters) that depends only on `key`; ifc/ifc_records.cpp.
+[[nodiscard]] std::string globalId(std::string_view key);
 
 /// The 16 numbers of an instance's transformation matrix, row by row, with `separator` between them: quarter turns,
 /// then the turn of the placement.

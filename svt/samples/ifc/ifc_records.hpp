@@ -4,6 +4,7 @@
 
 #include <svt/core/vec.hpp>
 #include <svt/samples/formats/sample_text.hpp>
+#include <svt/samples/formats/writers.hpp>
 
 #include <cstdint>
 #include <map>
@@ -44,8 +45,6 @@ template <class... Values>
     ((text += (text.empty() ? "" : ",") + stepValue(values)), ...);
     return text;
 }
-/// A GlobalId (22 characters) that depends only on `key`.
-[[nodiscard]] std::string globalId(std::string_view key);
 
 class IfcRecords {
 public:
