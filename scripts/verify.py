@@ -38,7 +38,7 @@ TABLE_BEGIN, TABLE_END = "<!-- checks: begin -->\n", "<!-- checks: end -->\n"
 FOLDERS = {
     "data": "core http plane record image model crs readers mesh validate",
     "volumes": "volume volume_readers voxelize analyze samples serve",
-    "pictures": "render render_gl drawing compare illustrate writers",
+    "pictures": "quantities render render_gl drawing compare illustrate writers",
     "chains": "pipeline city frontend",
     "command": "cli",
 }
@@ -66,7 +66,7 @@ CHECKS = {
         f"analyzer/{part}": Check(f"scripts/setup.sh checks && scripts/tidy.py --analyzer --only '{pattern}'", 20)
         for part, pattern in {
             "library": "/svt/(core|plane|record|image|model|crs|readers|mesh|validate"
-            "|volume|volume_readers|voxelize|analyze|render)/",
+            "|volume|volume_readers|voxelize|analyze|quantities|render)/",
             "programs": "/svt/(render_gl|drawing|compare|illustrate|writers|samples|serve|pipeline|city|frontend)/"
             "|/(apps|python)/",
         }.items()

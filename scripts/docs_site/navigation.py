@@ -23,6 +23,7 @@ COMMANDS = [
         "render",
         "section",
         "query",
+        "quantities",
         "cadastre",
         "diff",
         "shell",

@@ -27,4 +27,24 @@ struct SideArea {
 [[nodiscard]] std::vector<SideArea> findSideAreas(const volume::ColumnVolume& columns, const volume::Grid& grid,
                                                   std::span<const std::uint32_t> groupOfScalar, std::size_t groups);
 
+/// The samples of outside air: background that is connected to the border of the grid (voxels connected by faces), and
+/// the space beyond the grid.
+class OutsideAir {
+public:
+    /// \param labelOfScalar  see volume::LabelTable::labelOfScalar()
+    /// Cost: O(runs of all columns), and two words for each run of outside air.
+    OutsideAir(const volume::ColumnVolume& columns, std::span<const std::uint32_t> labelOfScalar);
+
+    /// Cost: O(log runs).
+    [[nodiscard]] bool contains(std::int32_t i, std::int32_t j, std::int32_t k) const noexcept;
+
+private:
+    struct Interval {
+        std::uint32_t begin = 0, end = 0;
+    };
+    Vec3i dimension_;
+    std::vector<std::size_t> first_;  // of column (i, j): intervals_[first_[i + nx * j]] .. [+ 1]
+    std::vector<Interval> intervals_;
+};
+
 }  // namespace svt::analyze

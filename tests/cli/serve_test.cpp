@@ -134,8 +134,8 @@ TEST_F(ServeTest, PicturesAreThoseOfRender) {
     const auto code = [&](const std::string& body) {
         const auto refused = serving.ask("POST /api/picture", body);
         EXPECT_EQ(refused.status, 422) << body;
-        const auto json = nlohmann::json::parse(refused.body, nullptr, false);
-        return json.is_object() ? json["code"].get<std::string>() : refused.body;
+        const auto reply = nlohmann::json::parse(refused.body, nullptr, false);
+        return reply.is_object() ? reply["code"].get<std::string>() : refused.body;
     };
     EXPECT_EQ(code("{"), "E105");
     EXPECT_EQ(code("[]"), "E105");

@@ -36,9 +36,20 @@ std::string ownValue(const std::string& key, const volume::Label& label, const s
     return attributeText(label, attribute);
 }
 
-// The value of each label for a key; empty: none.
-std::vector<std::string> valuesOf(const std::string& key, const volume::LabelTable& table,
-                                  const analyze::Extents& extents, const std::vector<std::uint32_t>& features) {
+}  // namespace
+
+std::vector<std::string> splitKeys(std::string_view keys) {
+    std::vector<std::string> split;
+    for (std::size_t at = 0; at < keys.size();) {
+        const std::size_t comma = std::min(keys.find(',', at), keys.size());
+        split.emplace_back(keys.substr(at, comma - at));
+        at = comma + 1;
+    }
+    return split;
+}
+
+std::vector<std::string> valuesOfKey(const std::string& key, const volume::LabelTable& table,
+                                     const analyze::Extents& extents, const std::vector<std::uint32_t>& features) {
     const auto& labels = table.labels;
     std::vector<std::string> values(labels.size());
     if (equalsIgnoringCase(key, "storey")) {
@@ -73,15 +84,7 @@ std::vector<std::string> valuesOf(const std::string& key, const volume::LabelTab
     return values;
 }
 
-}  // namespace
-
-FeatureSums::FeatureSums(const std::string& keys, bool hasFaces) : hasFaces_(hasFaces) {
-    for (std::size_t at = 0; at < keys.size();) {
-        const std::size_t comma = std::min(keys.find(',', at), keys.size());
-        keys_.push_back(keys.substr(at, comma - at));
-        at = comma + 1;
-    }
-}
+FeatureSums::FeatureSums(const std::string& keys, bool hasFaces) : keys_(splitKeys(keys)), hasFaces_(hasFaces) {}
 
 void FeatureSums::add(const volume::SemanticVolume& volume, std::span<const city::FeatureRow> rows,
                       std::span<const std::optional<double>> meshAreas) {
@@ -92,7 +95,7 @@ void FeatureSums::add(const volume::SemanticVolume& volume, std::span<const city
     for (const city::FeatureRow& row : rows) features.push_back(row.label);
     std::vector<std::vector<std::string>> values(count);
     for (const std::string& key : keys_) {
-        std::vector<std::string> ofKey = valuesOf(key, table, extents, features);
+        std::vector<std::string> ofKey = valuesOfKey(key, table, extents, features);
         for (std::size_t l = 0; l < count; ++l) values[l].push_back(std::move(ofKey[l]));
     }
     const std::vector<analyze::Measure> own = analyze::exclusiveMeasures(volume);

@@ -101,4 +101,26 @@ std::vector<SideArea> findSideAreas(const volume::ColumnVolume& columns, const v
     return SideCounter(columns, grid, groupOfScalar, groups).count();
 }
 
+OutsideAir::OutsideAir(const volume::ColumnVolume& columns, std::span<const std::uint32_t> labelOfScalar)
+    : dimension_(columns.dimension()), first_(std::size_t(dimension_.x) * std::size_t(dimension_.y) + 1, 0) {
+    Pieces pieces = sweepAir(columns, labelOfScalar, [](std::int32_t, std::int32_t, const AirRun&) {});
+    // A second sweep, since only the first one shows which air is outside. It visits the columns in order.
+    (void)sweepAir(columns, labelOfScalar, [&](std::int32_t i, std::int32_t j, const AirRun& run) {
+        if (pieces.rootOf(run.piece) != kOutside) return;
+        ++first_[std::size_t(i) + std::size_t(dimension_.x) * std::size_t(j) + 1];
+        intervals_.push_back({run.begin, run.end});
+    });
+    for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+}
+
+bool OutsideAir::contains(std::int32_t i, std::int32_t j, std::int32_t k) const noexcept {
+    if (i < 0 || j < 0 || k < 0 || i >= dimension_.x || j >= dimension_.y || k >= dimension_.z) return true;
+    const std::size_t column = std::size_t(i) + std::size_t(dimension_.x) * std::size_t(j);
+    const auto begin = intervals_.begin() + std::ptrdiff_t(first_[column]);
+    const auto end = intervals_.begin() + std::ptrdiff_t(first_[column + 1]);
+    const auto next = std::upper_bound(begin, end, std::uint32_t(k),
+                                       [](std::uint32_t at, const Interval& one) { return at < one.end; });
+    return next != end && next->begin <= std::uint32_t(k);
+}
+
 }  // namespace svt::analyze

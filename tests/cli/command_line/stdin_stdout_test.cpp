@@ -100,6 +100,8 @@ const std::vector<Written>& writtenByCommands() {
         {"query two.svt all -o OUT", ".csv", "csv"},
         {"query two.svt all -o OUT", ".geojson", "geojson"},
         {"query two.svt all -o OUT", ".parquet", "objectparquet"},
+        {"quantities two.svt -q -o OUT", ".csv", "csv"},
+        {"quantities two.svt -q -o OUT", ".json", "json"},
         {"diff two.gml two.gml --spacing 0.5 -o OUT", ".csv", "csv"},
         {"diff two.gml two.gml --spacing 0.5 -o OUT", ".svt", "svt"},
         {"shell two.svt -o OUT", ".svt", "svt"},

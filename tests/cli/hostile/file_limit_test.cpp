@@ -60,6 +60,8 @@ const LimitedOutput kLimitedOutputs[] = {
     {"--output", {"query", "two.svt", "all", "-o", "o.csv"}},
     {"--output", {"query", "two.svt", "all", "-o", "o.gpkg"}},
     {"--output", {"query", "two.svt", "all", "-o", "o.parquet"}},
+    {"--output", {"quantities", "two.svt", "-o", "o.csv"}},
+    {"--output", {"quantities", "two.svt", "-o", "o.json"}},
     {"--output", {"diff", "two.svt", "two.gml", "-o", "o.csv"}},
     {"--output", {"diff", "two.svt", "two.gml", "-o", "o.json"}},
     {"--output", {"diff", "two.svt", "two.gml", "-o", "o.svt"}},

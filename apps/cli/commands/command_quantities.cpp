@@ -1,0 +1,280 @@
+#include <apps/cli/city/city_input.hpp>
+#include <apps/cli/city/feature_sums.hpp>
+#include <apps/cli/options/catalog.hpp>
+#include <apps/cli/options/load_volume.hpp>
+#include <apps/cli/options/shared_options.hpp>
+#include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/output_files.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
+#include <apps/cli/quantities/take_off.hpp>
+
+#include <svt/analyze/selection.hpp>
+#include <svt/core/file.hpp>
+#include <svt/model/classes.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace svt::cli {
+namespace {
+
+using quantities::TouchingArea;
+using Selection = std::vector<std::uint32_t>;  // labels, ascending
+
+struct QuantitiesArguments {
+    std::filesystem::path input;
+    std::string where, by, formwork;
+    std::vector<std::string> between;
+    std::filesystem::path output;
+    bool exterior = false, stated = false;
+    pipeline::BuildOptions build;
+    bool json = false, csv = false;
+};
+
+// The objects of a query; without one, all components, else all bodies, else all that have geometry.
+Result<Selection> findObjects(const volume::SemanticVolume& volume, const std::string& query) {
+    if (!query.empty()) {
+        SVT_TRY(selected, analyze::selectLabels(volume, query));
+        return quantities::objectsOf(volume, *selected);
+    }
+    Selection all(volume.labels.labels.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const Selection objects = quantities::objectsOf(volume, all);
+    Selection components;
+    for (const std::uint32_t object : objects)
+        if (quantities::isComponent(volume.labels.labels[object])) components.push_back(object);
+    if (!components.empty() || objects.empty()) return components;
+    note("the model has no walls, slabs or other components; the rows are its buildings, rooms and other objects");
+    Selection bodies;
+    for (const std::uint32_t object : objects)
+        if (!quantities::isBoundarySheet(volume.labels.labels[object])) bodies.push_back(object);
+    return bodies.empty() ? objects : bodies;
+}
+
+// 1 for each label that an object is measured from.
+std::vector<char> partsOf(const volume::SemanticVolume& volume, std::span<const quantities::ObjectQuantities> objects) {
+    std::vector<char> isPart(volume.labels.labels.size(), 0);
+    for (const auto& object : objects)
+        for (const std::uint32_t part : object.parts) isPart[part] = 1;
+    return isPart;
+}
+
+bool isSoil(const volume::Label& label) {
+    return model::classRank(label.className) == model::ClassRank::Other && !model::isSpace(label.className);
+}
+
+// Objects without a mesh have no faces: their areas stay empty.
+Result<void> addTouchingAreas(const QuantitiesArguments& arguments, TakeOff& takeOff) {
+    const volume::SemanticVolume& volume = takeOff.volume;
+    std::vector<char> isConcrete;
+    if (!arguments.formwork.empty()) {
+        SVT_TRY(concrete, findObjects(volume, arguments.formwork));
+        isConcrete = partsOf(volume, quantities::measureObjects(volume, *concrete, arguments.build.threads));
+    }
+    const auto areas = quantities::findTouchingAreas(volume, takeOff.objects, arguments.build.threads);
+    const std::size_t count = takeOff.objects.size();
+    if (arguments.exterior) takeOff.exterior.resize(count);
+    if (!isConcrete.empty()) {
+        takeOff.formwork.resize(count);
+        takeOff.formworkTop.resize(count);
+    }
+    for (std::size_t n = 0; n < count; ++n) {
+        if (!takeOff.objects[n].outerArea) continue;
+        if (arguments.exterior) {
+            auto& exterior = takeOff.exterior[n].emplace();
+            for (const TouchingArea& area : areas[n])
+                if (area.isOutside) exterior[std::size_t(area.facing)] += area.area;
+        }
+        if (isConcrete.empty() || isConcrete[takeOff.objects[n].parts.front()] == 0) continue;
+        takeOff.formwork[n] = takeOff.formworkTop[n] = 0;
+        for (const TouchingArea& area : areas[n]) {
+            const bool isFree = area.label == volume::kNoLabel ||
+                                (isConcrete[area.label] == 0 && !isSoil(volume.labels.labels[area.label]));
+            if (!isFree) continue;
+            *takeOff.formwork[n] += area.area;
+            if (area.facing == quantities::Facing::Top) *takeOff.formworkTop[n] += area.area;
+        }
+    }
+    return {};
+}
+
+void addTexts(const QuantitiesArguments& arguments, TakeOff& takeOff) {
+    const volume::LabelTable& table = takeOff.volume.labels;
+    const analyze::Extents extents(table);
+    Selection all(table.labels.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const auto valuesOf = [&](const std::string& key) {
+        const std::vector<std::string> ofLabels = valuesOfKey(key, table, extents, all);
+        std::vector<std::string> values;
+        for (const auto& object : takeOff.objects) values.push_back(ofLabels[object.label]);
+        return values;
+    };
+    takeOff.storeys = valuesOf("storey");
+    takeOff.materials = valuesOf("material");
+    takeOff.keys = splitKeys(arguments.by);
+    takeOff.values.resize(takeOff.objects.size());
+    for (const std::string& key : takeOff.keys) {
+        std::vector<std::string> values = valuesOf(key);
+        for (std::size_t n = 0; n < values.size(); ++n) takeOff.values[n].push_back(std::move(values[n]));
+    }
+}
+
+Result<void> writeTakeOff(const QuantitiesArguments& arguments, const TakeOff& takeOff, const Table& table) {
+    if (arguments.output.empty()) return {};
+    if (endingOf(arguments.output) == ".json") {
+        const std::string text =
+            takeOffJson(takeOff, arguments.stated).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+        SVT_DO(writeFileAtomically(arguments.output, text));
+    } else {
+        SVT_DO(writeFileAtomically(arguments.output, writers::makeCsv(table)));
+    }
+    return {};
+}
+
+Result<int> printTakeOff(const volume::SemanticVolume& volume, const QuantitiesArguments& arguments) {
+    auto objects = findObjects(volume, arguments.where);
+    if (!objects && objects.error().code() == Code::NothingSelected) {
+        // An answer, not an error: the query is valid, but selects no feature.
+        note(objects.error().message());
+        objects = Selection();
+    }
+    if (!objects) return objects.error();
+    TakeOff takeOff{volume, quantities::measureObjects(volume, *objects, arguments.build.threads), {}};
+    takeOff.counted = quantities::countedVolumes(volume, takeOff.objects);
+    if (arguments.exterior || !arguments.formwork.empty()) SVT_DO(addTouchingAreas(arguments, takeOff));
+    addTexts(arguments, takeOff);
+    const auto tableOf = [&](bool hasSum) {
+        return arguments.stated       ? statedTable(takeOff)
+               : takeOff.keys.empty() ? takeOffTable(takeOff, hasSum)
+                                      : takeOffSums(takeOff, hasSum);
+    };
+    SVT_DO(writeTakeOff(arguments, takeOff, tableOf(false)));
+    TerminalProgress::hide();
+    if (takeOff.objects.empty()) note("no objects are measured; use --where with a query that selects objects");
+    for (const std::string& text : takeOffNotes(takeOff)) note(text);
+    if (arguments.json)
+        print(takeOffJson(takeOff, arguments.stated));
+    else if (!arguments.output.empty() && !arguments.csv)
+        summarize(fmt::format("{}: {} objects", arguments.output.string(), takeOff.objects.size()));
+    else
+        print(tableOf(!arguments.csv), arguments.csv ? TableFormat::Csv : TableFormat::Text);
+    return kDone;
+}
+
+// The areas with which objects of two selections touch, from the faces of both.
+Result<int> printContacts(const volume::SemanticVolume& volume, const QuantitiesArguments& arguments) {
+    std::array<std::vector<quantities::ObjectQuantities>, 2> sides;
+    std::array<std::vector<std::uint32_t>, 2> objectOf;  // by label
+    std::array<std::map<std::pair<std::uint32_t, std::uint32_t>, double>, 2> areas;
+    std::size_t withoutMesh = 0;
+    for (std::size_t s = 0; s < 2; ++s) {
+        SVT_TRY(objects, findObjects(volume, arguments.between[s]));
+        sides[s] = quantities::measureObjects(volume, *objects, arguments.build.threads);
+        objectOf[s].assign(volume.labels.labels.size(), volume::kNoLabel);
+        for (const auto& object : sides[s]) {
+            withoutMesh += !object.outerArea;
+            for (const std::uint32_t part : object.parts) objectOf[s][part] = object.label;
+        }
+    }
+    for (std::size_t s = 0; s < 2; ++s) {
+        const auto touching = quantities::findTouchingAreas(volume, sides[s], arguments.build.threads);
+        for (std::size_t n = 0; n < touching.size(); ++n)
+            for (const TouchingArea& area : touching[n]) {
+                if (area.label == volume::kNoLabel || objectOf[1 - s][area.label] == volume::kNoLabel) continue;
+                std::pair pair(sides[s][n].label, objectOf[1 - s][area.label]);
+                if (s == 1) std::swap(pair.first, pair.second);
+                // Two objects of both selections are one pair.
+                const bool isMirrored = objectOf[0][pair.second] != volume::kNoLabel &&
+                                        objectOf[1][pair.first] != volume::kNoLabel && pair.first > pair.second;
+                if (isMirrored) continue;
+                areas[s][pair] += area.area;
+                areas[1 - s].try_emplace(pair, 0.0);
+            }
+    }
+    Table table;
+    table.columns = {{"a", "a"},        {"aName", "name"}, {"b", "b"},
+                     {"bName", "name"}, {"area", "m2"},    {"areaOfB", "m2 by faces of b"}};
+    double sum = 0, sumOfB = 0;
+    for (const auto& [pair, area] : areas[0]) {
+        const volume::Label &a = volume.labels.labels[pair.first], &b = volume.labels.labels[pair.second];
+        const double ofB = areas[1].at(pair);
+        table.rows.push_back({a.id, a.name, b.id, b.name, area, ofB});
+        sum += area;
+        sumOfB += ofB;
+    }
+    if (!arguments.output.empty())
+        SVT_DO(writeFileAtomically(arguments.output, endingOf(arguments.output) == ".json" ? writers::makeJson(table)
+                                                                                           : writers::makeCsv(table)));
+    TerminalProgress::hide();
+    if (withoutMesh > 0) note(fmt::format("{} objects have no mesh; their contacts are unknown", withoutMesh));
+    if (table.rows.empty()) note("no two objects of the selections touch");
+    const TableFormat format = arguments.json  ? TableFormat::JsonRows
+                               : arguments.csv ? TableFormat::Csv
+                                               : TableFormat::Text;
+    if (format == TableFormat::Text && !arguments.output.empty()) {
+        summarize(fmt::format("{}: {} pairs", arguments.output.string(), table.rows.size()));
+        return kDone;
+    }
+    if (format == TableFormat::Text && !table.rows.empty())
+        table.rows.push_back({"(sum)", Cell(), Cell(), Cell(), sum, sumOfB});
+    print(table, format);
+    return kDone;
+}
+
+Result<int> runQuantities(const QuantitiesArguments& arguments) {
+    if (isCity(arguments.input))
+        return Error(Code::BadArgument,
+                     "'" + arguments.input.string() + "' is a city; measure parts of it (svt city extract)");
+    if (!arguments.between.empty() && arguments.between.size() != 2)
+        return Error(Code::BadArgument, "--between needs two queries; give it twice");
+    for (const std::string& query : {arguments.where, arguments.formwork})
+        if (!query.empty()) SVT_DO(model::Query::parse(query));
+    for (const std::string& query : arguments.between) SVT_DO(model::Query::parse(query));
+    pipeline::BuildOptions build = arguments.build;
+    build.vectors.meshes = true;
+    SVT_TRY(volume, loadVolume(arguments.input, build, TerminalProgress().get(), false));
+    if (volume->vectors.triangles.empty())
+        note("the volume has no meshes, so areas, lengths and openings are unknown; build it with --vectors meshes");
+    return arguments.between.empty() ? printTakeOff(*volume, arguments) : printContacts(*volume, arguments);
+}
+
+Members<QuantitiesArguments> membersOf(const QuantitiesArguments*) noexcept {
+    using All = QuantitiesArguments;
+    static constexpr Member<All> kMembers[] = {
+        modelInput<&All::input>("a .svt or a model file"),
+        member<&All::where>("--where", "only the objects that a query selects, such as 'class=IfcWall and storey=EG'",
+                            {.value = "QUERY", .otherwise = "all components"}),
+        member<&All::by>("--by", "sums by class, material, storey or other attributes, such as material,storey",
+                         {.value = "KEYS"}),
+        member<&All::output>("-o,--output", "write the rows to a file: .csv or .json",
+                             {.value = "FILE", .file = FileUse::Output, .formats = "csv|json"}),
+        member<&All::exterior>("--exterior", "areas that outside air touches, by orientation", {.group = "Areas"}),
+        member<&All::formwork>("--formwork",
+                               "areas of the objects of this query that touch neither each other nor soil",
+                               {.value = "QUERY", .group = "Areas"}),
+        member<&All::between>(
+            "--between", "areas with which objects of two queries touch, instead of the quantities; give it twice",
+            {.value = "QUERY", .group = "Areas", .excludes = "--by|--where|--exterior|--formwork|--stated"}),
+        member<&All::stated>("--stated",
+                             "compare the quantities that the file states (Qto sets, BaseQuantities) with the measured "
+                             "ones",
+                             {.group = "Areas", .excludes = "--by"}),
+        member<&All::json>("--json", "print rows, sums and assumptions as JSON on stdout",
+                           {.group = "Output", .excludes = "--csv"}),
+        member<&All::csv>("--csv", "print the rows as CSV on stdout", {.group = "Output"}),
+        quietOption<All>(),
+        part<&All::build>("build"),
+    };
+    return kMembers;
+}
+
+}  // namespace
+
+extern const CommandText kQuantitiesCommand = commandOf<QuantitiesArguments, runQuantities>(
+    "quantities", "Measure objects: volumes, areas and lengths, with and without openings");
+
+}  // namespace svt::cli

@@ -1,0 +1,403 @@
+#include <apps/cli/quantities/take_off.hpp>
+
+#include <svt/core/attribute.hpp>
+#include <svt/core/names.hpp>
+#include <svt/core/text.hpp>
+#include <svt/model/classes.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <string_view>
+
+namespace svt::cli {
+namespace {
+
+using quantities::ObjectQuantities;
+using Known = std::optional<double>;
+
+// The figures of a row, in the order of the columns.
+enum Figure : std::size_t {
+    kNet,
+    kGross,
+    kSide,
+    kTop,
+    kBottom,
+    kOuter,
+    kExterior,
+    kOpening,
+    kFormwork,
+    kFormworkTop,
+    kThickness,
+    kLength,
+    kWidth,
+    kHeight,
+    kPerimeter,
+    kFigures
+};
+struct FigureText {
+    const char *name, *title;
+    bool isSummed;
+};
+constexpr std::array<FigureText, kFigures> kTexts{{{"netVolume", "net m3", true},
+                                                   {"grossVolume", "gross m3", true},
+                                                   {"sideArea", "side m2", true},
+                                                   {"topArea", "top m2", true},
+                                                   {"bottomArea", "bottom m2", true},
+                                                   {"outerArea", "", true},
+                                                   {"exteriorArea", "exterior m2", true},
+                                                   {"openingArea", "openings m2", true},
+                                                   {"formworkArea", "formwork m2", true},
+                                                   {"formworkTopArea", "", true},
+                                                   {"thickness", "thick m", false},
+                                                   {"length", "long m", false},
+                                                   {"width", "", false},
+                                                   {"height", "high m", false},
+                                                   {"perimeter", "", false}}};
+using Figures = std::array<Known, kFigures>;
+
+bool isAsked(const TakeOff& takeOff, std::size_t figure) {
+    if (figure == kExterior) return !takeOff.exterior.empty();
+    if (figure == kFormwork || figure == kFormworkTop) return !takeOff.formwork.empty();
+    return true;
+}
+
+Figures figuresOf(const TakeOff& takeOff, std::size_t n) {
+    const ObjectQuantities& object = takeOff.objects[n];
+    Figures figures;
+    figures[kNet] = object.netVolume;
+    figures[kGross] = object.grossVolume;
+    figures[kSide] = object.sideArea;
+    figures[kTop] = object.topArea;
+    figures[kBottom] = object.bottomArea;
+    figures[kOuter] = object.outerArea;
+    figures[kOpening] = object.openingArea;
+    figures[kThickness] = object.thickness;
+    figures[kLength] = object.length;
+    figures[kWidth] = object.width;
+    figures[kHeight] = object.height;
+    figures[kPerimeter] = object.perimeter;
+    if (!takeOff.exterior.empty() && takeOff.exterior[n])
+        figures[kExterior] = std::accumulate(takeOff.exterior[n]->begin(), takeOff.exterior[n]->end(), 0.0);
+    if (!takeOff.formwork.empty()) {
+        figures[kFormwork] = takeOff.formwork[n];
+        figures[kFormworkTop] = takeOff.formworkTop[n];
+    }
+    return figures;
+}
+
+// The figures of an object as they count in sums: space that it shares with another counts with one of them.
+Figures countedFigures(const TakeOff& takeOff, std::size_t n) {
+    Figures figures = figuresOf(takeOff, n);
+    const ObjectQuantities& object = takeOff.objects[n];
+    figures[kNet] = takeOff.counted[n].volume;
+    if (figures[kGross])
+        figures[kGross] = figures[kNet] ? Known(*figures[kNet] + *object.grossVolume - *object.netVolume) : Known();
+    return figures;
+}
+
+struct Sums {
+    std::size_t objects = 0;
+    Figures figures{};
+    std::array<std::size_t, kFigures> unknown{};
+    std::array<Known, 10> exterior{};
+    Known bound = 0.0;
+
+    void add(const TakeOff& takeOff, std::size_t n) {
+        ++objects;
+        const Figures own = countedFigures(takeOff, n);
+        for (std::size_t f = 0; f < kFigures; ++f) {
+            if (own[f])
+                figures[f] = figures[f].value_or(0) + *own[f];
+            else
+                ++unknown[f];
+        }
+        if (!takeOff.exterior.empty() && takeOff.exterior[n])
+            for (std::size_t way = 0; way < exterior.size(); ++way)
+                exterior[way] = exterior[way].value_or(0) + (*takeOff.exterior[n])[way];
+        if (!own[kNet]) return;
+        // A mesh whose shared space is counted in voxels has no bound in the sum.
+        const bool isUnbounded = !takeOff.counted[n].isExact && takeOff.objects[n].trust != quantities::Trust::Voxels;
+        const Known ownBound = isUnbounded ? Known() : takeOff.objects[n].bound;
+        bound = bound && ownBound ? Known(*bound + *ownBound) : Known();
+    }
+};
+
+Sums sumOfAll(const TakeOff& takeOff) {
+    Sums sums;
+    for (std::size_t n = 0; n < takeOff.objects.size(); ++n) sums.add(takeOff, n);
+    return sums;
+}
+
+std::map<std::vector<std::string>, Sums> sumsByKeys(const TakeOff& takeOff) {
+    std::map<std::vector<std::string>, Sums> groups;
+    for (std::size_t n = 0; n < takeOff.objects.size(); ++n) groups[takeOff.values[n]].add(takeOff, n);
+    return groups;
+}
+
+// A tenth of a cubic centimetre or the like, so that no report has digits from rounding errors.
+double withoutNoise(double value) { return std::round(value * 1e7) / 1e7; }
+Cell cellOf(const Known& value) { return value ? Cell(withoutNoise(*value)) : Cell(); }
+Json jsonOf(const Known& value) { return value ? Json(withoutNoise(*value)) : Json(); }
+Cell cellOf(const std::string& text) { return text.empty() ? Cell() : Cell(text); }
+Json jsonOf(const std::string& text) { return text.empty() ? Json() : Json(text); }
+// Bounds of closed meshes are far below the digits of a volume; they keep their own.
+Cell boundCell(const Known& bound) { return bound ? Cell(*bound) : Cell(); }
+
+std::string exteriorName(std::size_t way) { return "exterior_" + std::string(quantities::kFacingNames[way]); }
+
+void addFigureColumns(const TakeOff& takeOff, bool isSum, std::vector<Column>& columns) {
+    for (std::size_t f = 0; f < kFigures; ++f)
+        if (isAsked(takeOff, f) && (!isSum || kTexts[f].isSummed)) columns.push_back({kTexts[f].name, kTexts[f].title});
+    if (!takeOff.exterior.empty())
+        for (std::size_t way = 0; way < quantities::kFacingNames.size(); ++way)
+            columns.push_back({exteriorName(way), std::string(quantities::kFacingNames[way]) + " m2"});
+}
+
+void addFigures(const TakeOff& takeOff, const Figures& figures, bool isSum, bool hasOnlySums, Row& row) {
+    for (std::size_t f = 0; f < kFigures; ++f) {
+        if (!isAsked(takeOff, f) || (hasOnlySums && !kTexts[f].isSummed)) continue;
+        row.push_back(isSum && !kTexts[f].isSummed ? Cell() : cellOf(figures[f]));
+    }
+}
+
+void addExterior(const TakeOff& takeOff, const std::array<Known, 10>& exterior, Row& row) {
+    if (takeOff.exterior.empty()) return;
+    for (const Known& way : exterior) row.push_back(cellOf(way));
+}
+
+std::array<Known, 10> exteriorOf(const TakeOff& takeOff, std::size_t n) {
+    std::array<Known, 10> exterior{};
+    if (!takeOff.exterior.empty() && takeOff.exterior[n])
+        for (std::size_t way = 0; way < exterior.size(); ++way) exterior[way] = (*takeOff.exterior[n])[way];
+    return exterior;
+}
+
+Json sumsJson(const TakeOff& takeOff, const Sums& sums) {
+    Json json;
+    json["objects"] = sums.objects;
+    for (std::size_t f = 0; f < kFigures; ++f) {
+        if (!kTexts[f].isSummed || !isAsked(takeOff, f)) continue;
+        json[kTexts[f].name] = jsonOf(sums.figures[f]);
+        if (sums.unknown[f] > 0) json["unknown"][kTexts[f].name] = sums.unknown[f];
+    }
+    json["bound"] = sums.figures[kNet] && sums.bound ? Json(*sums.bound) : Json();
+    if (!takeOff.exterior.empty())
+        for (std::size_t way = 0; way < sums.exterior.size(); ++way)
+            json["exterior"][std::string(quantities::kFacingNames[way])] = jsonOf(sums.exterior[way]);
+    return json;
+}
+
+// A quantity of the file and the measured one that it stands for.
+struct StatedName {
+    std::string_view name;
+    bool isOfUpright, isOfFlat;  // bodies for which it has this meaning
+    Known (*measured)(const ObjectQuantities&);
+};
+Known plus(const Known& a, const Known& b) { return a && b ? Known(*a + *b) : Known(); }
+constexpr StatedName kStated[] = {
+    {"NetVolume", true, true, [](const ObjectQuantities& q) { return q.netVolume; }},
+    {"GrossVolume", true, true, [](const ObjectQuantities& q) { return q.grossVolume; }},
+    {"Length", true, false, [](const ObjectQuantities& q) { return q.length; }},
+    {"Height", true, false, [](const ObjectQuantities& q) { return q.height; }},
+    {"Width", true, true, [](const ObjectQuantities& q) { return q.thickness; }},
+    {"NetSideArea", true, false, [](const ObjectQuantities& q) { return q.sideArea; }},
+    {"GrossSideArea", true, false, [](const ObjectQuantities& q) { return plus(q.sideArea, q.openingArea); }},
+    {"NetArea", false, true, [](const ObjectQuantities& q) { return q.topArea; }},
+    {"GrossArea", false, true, [](const ObjectQuantities& q) { return plus(q.topArea, q.openingArea); }},
+    {"Perimeter", false, true, [](const ObjectQuantities& q) { return q.perimeter; }},
+};
+
+const StatedName* statedNameOf(std::string_view attribute) {
+    const std::size_t dot = attribute.find('.');
+    if (dot == std::string_view::npos) return nullptr;
+    const std::string_view set = attribute.substr(0, dot);
+    if (!set.starts_with("Qto_") && set != "BaseQuantities") return nullptr;
+    for (const StatedName& stated : kStated)
+        if (stated.name == attribute.substr(dot + 1)) return &stated;
+    return nullptr;
+}
+
+Known numberOf(const AttributeValue& value) {
+    if (const auto* number = std::get_if<double>(&value)) return *number;
+    if (const auto* whole = std::get_if<std::int64_t>(&value)) return double(*whole);
+    return {};
+}
+
+Json tableRows(const Table& table) {
+    Json rows = Json::array();
+    for (const Row& row : table.rows) {
+        Json& json = rows.emplace_back();
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            Json& value = json[table.columns[c].name];
+            if (const auto* text = std::get_if<std::string>(&row[c].value)) value = *text;
+            if (const auto* number = std::get_if<double>(&row[c].value)) value = *number;
+        }
+    }
+    return rows;
+}
+
+Json assumptionsOf(const TakeOff& takeOff) {
+    Json list = Json::array();
+    list.push_back("openings are voids between the two faces of a body, enclosed or reaching its lower edge");
+    list.push_back("a void is as deep as the body is thick; niches and recesses do not count");
+    list.push_back("the volume of a mesh that was closed by caps refers to the closed mesh; its bound is unknown");
+    list.push_back("space that several objects share counts once in sums");
+    if (!takeOff.exterior.empty()) list.push_back("north is +y of the coordinate reference system");
+    if (!takeOff.exterior.empty()) list.push_back("outside air is air that is connected to the border of the model");
+    if (!takeOff.formwork.empty())
+        list.push_back("soil is only where the model has terrain; faces that look up need formwork");
+    return list;
+}
+
+}  // namespace
+
+Table takeOffTable(const TakeOff& takeOff, bool hasSum) {
+    Table table;
+    table.columns = {{"id", "id"}, {"class", "class"}, {"name", "name"}, {"storey", "storey"}, {"material"}};
+    addFigureColumns(takeOff, false, table.columns);
+    table.columns.insert(table.columns.end(),
+                         {{"openings", "", 0}, {"trust", "trust"}, {"bound", "+- m3"}, {"grossBound"}});
+    for (std::size_t n = 0; n < takeOff.objects.size(); ++n) {
+        const ObjectQuantities& object = takeOff.objects[n];
+        const volume::Label& label = takeOff.volume.labels.labels[object.label];
+        Row& row = table.rows.emplace_back();
+        row = {label.id, label.className, label.name, cellOf(takeOff.storeys[n]), cellOf(takeOff.materials[n])};
+        addFigures(takeOff, figuresOf(takeOff, n), false, false, row);
+        addExterior(takeOff, exteriorOf(takeOff, n), row);
+        row.push_back(object.openings ? Cell(*object.openings) : Cell());
+        row.push_back(cellOf(std::string(nameOf(object.trust))));
+        row.push_back(boundCell(object.netVolume ? object.bound : Known()));
+        row.push_back(boundCell(object.grossVolume ? object.grossBound : Known()));
+    }
+    if (hasSum && !takeOff.objects.empty()) {
+        const Sums sums = sumOfAll(takeOff);
+        Row& row = table.rows.emplace_back();
+        row = {"(sum)", Cell(), fmt::format("{} objects", sums.objects), Cell(), Cell()};
+        addFigures(takeOff, sums.figures, true, false, row);
+        addExterior(takeOff, sums.exterior, row);
+        row.insert(row.end(), {Cell(), Cell(), boundCell(sums.figures[kNet] ? sums.bound : Known()), Cell()});
+    }
+    return table;
+}
+
+Table takeOffSums(const TakeOff& takeOff, bool hasSum) {
+    Table table;
+    for (const std::string& key : takeOff.keys) table.columns.push_back({key, key, 0});
+    table.columns.push_back({"objects", "objects", 0});
+    addFigureColumns(takeOff, true, table.columns);
+    table.columns.push_back({"bound", "+- m3"});
+    const auto addRow = [&](Row row, const Sums& sums) {
+        row.emplace_back(sums.objects);
+        addFigures(takeOff, sums.figures, true, true, row);
+        addExterior(takeOff, sums.exterior, row);
+        row.push_back(boundCell(sums.figures[kNet] ? sums.bound : Known()));
+        table.rows.push_back(std::move(row));
+    };
+    for (const auto& [values, sums] : sumsByKeys(takeOff)) {
+        Row row;
+        for (const std::string& value : values) row.push_back(cellOf(value));
+        addRow(std::move(row), sums);
+    }
+    if (hasSum && !takeOff.objects.empty()) {
+        Row row(takeOff.keys.size());
+        row.front() = "(sum)";
+        addRow(std::move(row), sumOfAll(takeOff));
+    }
+    return table;
+}
+
+Table statedTable(const TakeOff& takeOff) {
+    Table table;
+    table.columns = {{"id", "id"},
+                     {"class", "class"},
+                     {"name", "name"},
+                     {"quantity", "quantity"},
+                     {"stated", "stated"},
+                     {"measured", "measured"},
+                     {"difference", "difference"}};
+    for (const ObjectQuantities& object : takeOff.objects) {
+        const volume::Label& label = takeOff.volume.labels.labels[object.label];
+        if (model::classRank(label.className) != model::ClassRank::Element) continue;
+        // An upright body has a length and no width, see ObjectQuantities.
+        const bool isUpright = object.length && !object.width, isFlat = object.width.has_value();
+        for (const Attribute& attribute : label.attributes) {
+            const StatedName* name = statedNameOf(attribute.name);
+            const Known stated = name != nullptr ? numberOf(attribute.value) : Known();
+            if (!stated) continue;
+            const bool isDefined =
+                (isUpright && name->isOfUpright) || (isFlat && name->isOfFlat) || (name->isOfUpright && name->isOfFlat);
+            const Known measured = isDefined ? name->measured(object) : Known();
+            table.rows.push_back({label.id, label.className, label.name, attribute.name, cellOf(stated),
+                                  cellOf(measured), measured ? cellOf(Known(*measured - *stated)) : Cell()});
+        }
+    }
+    return table;
+}
+
+Json takeOffJson(const TakeOff& takeOff, bool hasStated) {
+    Json json;
+    Json& rows = json["rows"] = Json::array();
+    for (std::size_t n = 0; n < takeOff.objects.size(); ++n) {
+        const ObjectQuantities& object = takeOff.objects[n];
+        const volume::Label& label = takeOff.volume.labels.labels[object.label];
+        const Figures figures = figuresOf(takeOff, n);
+        Json& row = rows.emplace_back();
+        row["id"] = label.id;
+        row["class"] = label.className;
+        row["name"] = label.name;
+        row["storey"] = jsonOf(takeOff.storeys[n]);
+        row["material"] = jsonOf(takeOff.materials[n]);
+        for (const Figure f : {kNet, kGross, kSide, kTop, kBottom, kExterior, kOpening, kFormwork})
+            row[kTexts[f].name] = jsonOf(figures[f]);
+        row["trust"] = jsonOf(std::string(nameOf(object.trust)));
+        row["bound"] = object.netVolume && object.bound ? Json(*object.bound) : Json();
+    }
+    if (!takeOff.keys.empty()) {
+        Json& sums = json["sums"] = Json::array();
+        for (const auto& [values, sum] : sumsByKeys(takeOff)) {
+            Json row = sumsJson(takeOff, sum);
+            for (std::size_t k = 0; k < values.size(); ++k) row["by"][takeOff.keys[k]] = jsonOf(values[k]);
+            sums.push_back(std::move(row));
+        }
+    }
+    if (!takeOff.exterior.empty()) {
+        Json& exterior = json["exterior"] = Json::array();
+        for (std::size_t n = 0; n < takeOff.objects.size(); ++n) {
+            Json& row = exterior.emplace_back();
+            row["id"] = takeOff.volume.labels.labels[takeOff.objects[n].label].id;
+            const std::array<Known, 10> areas = exteriorOf(takeOff, n);
+            for (std::size_t way = 0; way < areas.size(); ++way)
+                row[std::string(quantities::kFacingNames[way])] = jsonOf(areas[way]);
+        }
+    }
+    if (hasStated) json["stated"] = tableRows(statedTable(takeOff));
+    json["total"] = sumsJson(takeOff, sumOfAll(takeOff));
+    json["assumptions"] = assumptionsOf(takeOff);
+    return json;
+}
+
+std::vector<std::string> takeOffNotes(const TakeOff& takeOff) {
+    std::vector<std::string> notes;
+    const Sums sums = sumOfAll(takeOff);
+    if (sums.unknown[kNet] > 0)
+        notes.push_back(
+            fmt::format("the net volume of {} of {} objects is unknown: they are surfaces, or too small for "
+                        "the voxels; sums exclude them",
+                        sums.unknown[kNet], sums.objects));
+    if (const std::size_t unknown = sums.unknown[kGross] - std::min(sums.unknown[kGross], sums.unknown[kNet]);
+        unknown > 0)
+        notes.push_back(
+            fmt::format("the gross volume of {} objects with a net volume is unknown: they lack two parallel "
+                        "faces or a closed mesh, or are not walls or slabs; sums of gross volumes exclude them",
+                        unknown));
+    std::size_t counted = 0;
+    for (const quantities::CountedVolume& one : takeOff.counted) counted += one.volume && !one.isExact;
+    if (counted > 0) notes.push_back(fmt::format("the volumes of {} objects in sums are counted in voxels", counted));
+    return notes;
+}
+
+}  // namespace svt::cli

@@ -1,0 +1,49 @@
+#pragma once
+/// \file
+/// The take-off of `svt quantities`: objects with their quantities, and sums of them, as tables and as JSON.
+
+#include <apps/cli/output/json_output.hpp>
+#include <apps/cli/output/table.hpp>
+
+#include <svt/quantities/quantities.hpp>
+#include <svt/quantities/touching_faces.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace svt::cli {
+
+/// The rows of a take-off, with the figures that were asked for beside the quantities.
+struct TakeOff {
+    const volume::SemanticVolume& volume;
+    std::vector<quantities::ObjectQuantities> objects;
+    std::vector<quantities::CountedVolume> counted;  ///< by object
+    /// By object and quantities::Facing: m2 that outside air touches. Without objects: not asked for.
+    std::vector<std::optional<std::array<double, 10>>> exterior{};
+    std::vector<std::optional<double>> formwork{};     ///< by object, m2; likewise
+    std::vector<std::optional<double>> formworkTop{};  ///< by object, m2 of these faces that look up
+    std::vector<std::string> storeys{};                ///< by object
+    std::vector<std::string> materials{};              ///< by object
+    std::vector<std::string> keys{};                   ///< of --by
+    std::vector<std::vector<std::string>> values{};    ///< by object and key
+};
+
+/// One row per object, then the sum. \param hasSum  the last row is the sum of all
+[[nodiscard]] Table takeOffTable(const TakeOff& takeOff, bool hasSum);
+
+/// One row for each combination of the values of the keys. \param hasSum  the last row is the sum of all
+[[nodiscard]] Table takeOffSums(const TakeOff& takeOff, bool hasSum);
+
+/// Quantities that the file states, beside the measured ones: one row per object and quantity.
+[[nodiscard]] Table statedTable(const TakeOff& takeOff);
+
+/// See docs/user/json.md. \param hasStated  adds the rows of statedTable()
+[[nodiscard]] Json takeOffJson(const TakeOff& takeOff, bool hasStated);
+
+/// Notes on quantities that sums exclude, and on volumes counted in voxels.
+[[nodiscard]] std::vector<std::string> takeOffNotes(const TakeOff& takeOff);
+
+}  // namespace svt::cli

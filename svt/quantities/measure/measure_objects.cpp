@@ -1,0 +1,276 @@
+#include <svt/quantities/quantities.hpp>
+
+#include <svt/analyze/extents.hpp>
+#include <svt/analyze/label_measures.hpp>
+#include <svt/core/parallel.hpp>
+#include <svt/model/classes.hpp>
+#include <svt/quantities/measure/plate.hpp>
+#include <svt/quantities/measure/silhouette.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace svt::quantities {
+namespace {
+
+using volume::Filling, volume::Label;
+
+// The sums of one pass over the triangles.
+struct FaceSums {
+    double volume = 0, top = 0, bottom = 0, side = 0;
+    double lowest = 1e300, highest = -1e300;
+    [[nodiscard]] double all() const noexcept { return top + bottom + side; }
+};
+
+FaceSums sumsOf(std::span<const Corners> triangles) {
+    FaceSums sums;
+    for (const Corners& t : triangles) {
+        const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
+        const double area = 0.5 * length(normal);
+        sums.volume += dot(t[0], cross(t[1], t[2])) / 6;
+        (normal.z > 2 * area * kLeastRise    ? sums.top
+         : normal.z < -2 * area * kLeastRise ? sums.bottom
+                                             : sums.side) += area;
+        for (const Vec3d& p : t) {
+            sums.lowest = std::min(sums.lowest, p.z);
+            sums.highest = std::max(sums.highest, p.z);
+        }
+    }
+    return sums;
+}
+
+Trust trustOf(Filling filling) noexcept {
+    switch (filling) {
+        case Filling::Solid: return Trust::Exact;
+        case Filling::TJunctions:
+        case Filling::Complemented: return Trust::Tight;
+        case Filling::Capped: return Trust::Caps;
+        case Filling::Winding:
+        case Filling::Body: return Trust::Voxels;
+        case Filling::None:
+        case Filling::Surface: break;
+    }
+    return Trust::Unknown;
+}
+
+// Openings are those of walls, slabs, roofs, beams and columns; not those of a railing or a shelf.
+bool mayHaveOpenings(const Label& label) { return model::classRank(label.className) == model::ClassRank::Element; }
+
+class Measurer {
+public:
+    explicit Measurer(const volume::SemanticVolume& volume)
+        : volume_(volume), labels_(volume.labels.labels), lost_(labels_.size(), 0), first_(labels_.size() + 1, 0) {
+        for (const volume::Overlap& overlap : volume.labels.overlaps) lost_[overlap.b] += overlap.voxels;
+        for (const auto& triangle : volume.vectors.triangles) ++first_[triangle.label + 1];
+        for (std::size_t l = 0; l < labels_.size(); ++l) first_[l + 1] += first_[l];
+        const Vec3d s = volume.grid.spacing();
+        halfVoxel_ = std::max({s.x, s.y, s.z}) / 2;
+    }
+
+    [[nodiscard]] ObjectQuantities measure(std::uint32_t label) const {
+        ObjectQuantities result;
+        result.label = label;
+        result.parts = {label};
+        for (std::uint32_t child = label + 1; child < labels_[label].subtreeEnd && child < labels_.size(); ++child)
+            if (labels_[child].parent == label && model::isPhase(labels_[child].className))
+                result.parts.push_back(child);
+        std::vector<Corners> all;
+        const std::uint32_t* solid = nullptr;
+        std::size_t withFaces = 0;
+        for (const std::uint32_t& part : result.parts) {
+            const std::vector<Corners> own = trianglesOf(part);
+            addVolume(part, own, result);
+            if (own.empty()) continue;
+            ++withFaces;
+            solid = enclosesItsVolume(part, own) ? &part : nullptr;
+            all.insert(all.end(), own.begin(), own.end());
+        }
+        if (all.empty()) return result;
+        const FaceSums sums = sumsOf(all);
+        result.topArea = sums.top;
+        result.bottomArea = sums.bottom;
+        result.sideArea = sums.side;
+        result.outerArea = sums.all();
+        result.height = sums.highest - sums.lowest;
+        if (withFaces == 1 && solid != nullptr) measurePlate(all, result);
+        return result;
+    }
+
+private:
+    // Relative to the first corner, so that sums keep their digits.
+    [[nodiscard]] std::vector<Corners> trianglesOf(std::uint32_t label) const {
+        std::vector<Corners> triangles;
+        const volume::VectorParts& parts = volume_.vectors;
+        if (first_[label] == first_[label + 1]) return triangles;
+        const Vec3d origin = parts.position(parts.triangles[first_[label]].corners[0], {});
+        for (std::size_t t = first_[label]; t < first_[label + 1]; ++t) {
+            const auto& c = parts.triangles[t].corners;
+            triangles.push_back(
+                {parts.position(c[0], -origin), parts.position(c[1], -origin), parts.position(c[2], -origin)});
+        }
+        return triangles;
+    }
+
+    [[nodiscard]] bool enclosesItsVolume(std::uint32_t label, std::span<const Corners> triangles) const {
+        const auto stated = analyze::solidVolumeOf(labels_[label]);
+        if (!stated || triangles.empty()) return false;
+        const FaceSums sums = sumsOf(triangles);
+        return std::abs(sums.volume - *stated) <= sums.all() * volume_.vectors.unit + 1e-6 * *stated;
+    }
+
+    // Adds the volume of a part, its bound and its source; the least exact source is that of the sum.
+    void addVolume(std::uint32_t part, std::span<const Corners> triangles, ObjectQuantities& result) const {
+        const Label& label = labels_[part];
+        const Trust trust = trustOf(label.filling);
+        if (trust == Trust::Unknown) return;
+        double volume = 0;
+        std::optional<double> bound;
+        if (const auto solid = analyze::solidVolumeOf(label)) {
+            volume = *solid;
+            if (trust != Trust::Caps)
+                bound = (triangles.empty() ? label.area : sumsOf(triangles).all()) * volume::VectorParts::kFinestUnit;
+        } else if (trust == Trust::Voxels) {
+            const std::uint64_t inside =
+                label.voxels - (label.filling == Filling::Winding ? std::min(label.voxels, label.thinVoxels) : 0);
+            if (inside + lost_[part] == 0) return;
+            const double voxel = volume_.grid.voxelVolume();
+            volume = double(inside + lost_[part]) * voxel;
+            const double sides = label.filling == Filling::Body ? 2 : 1;
+            if (label.area > 0)
+                bound = sides * label.area * halfVoxel_ + double(label.uncertainVoxels + lost_[part]) * voxel;
+        } else {
+            return;  // a closed mesh whose volume the file does not keep
+        }
+        const bool isFirst = !result.netVolume;
+        result.netVolume = result.netVolume.value_or(0) + volume;
+        if (isFirst)
+            result.bound = bound;
+        else
+            result.bound = result.bound && bound ? std::optional(*result.bound + *bound) : std::nullopt;
+        result.trust = std::max(result.trust, trust);
+    }
+
+    void measurePlate(std::span<const Corners> triangles, ObjectQuantities& result) const {
+        const auto plate = findPlate(triangles);
+        if (!plate) return;
+        const Vec3d up = cross(plate->normal, plate->along);
+        const auto isOn = [&](const Corners& t, double place) {
+            return std::all_of(t.begin(), t.end(),
+                               [&](const Vec3d& p) { return std::abs(dot(p, plate->normal) - place) <= kFlatness; });
+        };
+        std::vector<FlatTriangle> flat;
+        for (const Corners& t : triangles) {
+            const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
+            const double facing = dot(normal, plate->normal);
+            if (std::abs(facing) <= 1e-6 * length(normal)) continue;
+            const bool isBack = facing < 0;
+            if (isBack && !isOn(t, plate->back)) continue;
+            FlatTriangle& f = flat.emplace_back();
+            for (std::size_t c = 0; c < 3; ++c) f.corners[c] = {dot(t[c], plate->along), dot(t[c], up)};
+            f.claim = isBack ? kBack : isOn(t, plate->front) ? kFront : kSeen;
+        }
+        const auto silhouette = silhouetteOf(flat, plate->isUpright());
+        if (!silhouette) return;
+        const double u = silhouette->high[0] - silhouette->low[0], v = silhouette->high[1] - silhouette->low[1];
+        if (plate->thickness() > std::min(u, v) + kFlatness) return;  // the ends of a round column
+        result.thickness = plate->thickness();
+        result.length = plate->isUpright() ? u : std::max(u, v);
+        if (!plate->isUpright()) result.width = std::min(u, v);
+        if (plate->isUpright()) result.sideArea = silhouette->area;
+        result.perimeter = silhouette->perimeter;
+        if (mayHaveOpenings(labels_[result.label])) addVoids(*silhouette, *plate, triangles, result);
+    }
+
+    // A void is as deep as the wall is thick. Thinner material around it is a part of it to an unknown degree: half of it
+    // is taken, and the other half is the bound.
+    static void addVoids(const Silhouette& silhouette, const Plate& plate, std::span<const Corners> triangles,
+                         ObjectQuantities& result) {
+        double high = -1e300, low = 1e300;
+        for (const Corners& t : triangles)
+            for (const Vec3d& p : t) {
+                high = std::max(high, dot(p, plate.normal));
+                low = std::min(low, dot(p, plate.normal));
+            }
+        const double deepest = high - low;
+        double area = 0, closed = 0, bound = 0;
+        bool isBounded = true;
+        for (const Void& one : silhouette.voids) {
+            area += one.area;
+            closed += plate.thickness() * one.area;
+            if (!one.rebate) {
+                isBounded = false;
+            } else if (*one.rebate > 0) {
+                const bool isReveal = *one.rebate <= one.area;
+                closed += isReveal ? plate.thickness() * *one.rebate / 2 : 0;
+                bound += plate.thickness() * *one.rebate / (isReveal ? 2 : 1);
+                bound += (deepest - plate.thickness()) * (one.area + *one.rebate);
+            }
+        }
+        result.openingArea = area;
+        result.openings = silhouette.voids.size();
+        if (!result.netVolume) return;
+        result.grossVolume = *result.netVolume + closed;
+        if (isBounded) result.grossBound = bound;
+    }
+
+    const volume::SemanticVolume& volume_;
+    const std::vector<Label>& labels_;
+    std::vector<std::uint64_t> lost_;  // by label: voxels that others took
+    std::vector<std::size_t> first_;   // of l: triangles [first_[l], first_[l + 1])
+    double halfVoxel_ = 0;
+};
+
+}  // namespace
+
+bool isComponent(const Label& label) {
+    const model::ClassRank rank = model::classRank(label.className);
+    return !model::isSpace(label.className) && rank != model::ClassRank::Building && rank != model::ClassRank::Other &&
+           !isBoundarySheet(label);
+}
+
+bool isBoundarySheet(const Label& label) {
+    const bool isSurface = model::isBoundarySurface(label.className) || label.className == "DoorSurface" ||
+                           label.className == "WindowSurface";
+    return isSurface && label.filling == Filling::Surface;
+}
+
+std::vector<std::uint32_t> objectsOf(const volume::SemanticVolume& volume, std::span<const std::uint32_t> selected) {
+    const auto& labels = volume.labels.labels;
+    std::vector<char> hasFaces(labels.size(), 0), isTaken(labels.size(), 0);
+    for (const auto& triangle : volume.vectors.triangles) hasFaces[triangle.label] = 1;
+    for (std::uint32_t l = 0; l < labels.size(); ++l)
+        if (labels[l].voxels > 0 || analyze::solidVolumeOf(labels[l])) hasFaces[l] = 1;
+    std::vector<char> hasGeometry = hasFaces;
+    for (std::uint32_t l = 0; l < labels.size(); ++l)
+        if (hasFaces[l] != 0 && model::isPhase(labels[l].className) && labels[l].parent < l)
+            hasGeometry[labels[l].parent] = 1;
+    const analyze::Extents extents(volume.labels);
+    for (const std::uint32_t label : selected) {
+        if (hasGeometry[label] != 0) {
+            isTaken[label] = 1;
+            continue;
+        }
+        for (const std::uint32_t part : extents.of(label))
+            if (hasGeometry[part] != 0 && isComponent(labels[part])) isTaken[part] = 1;
+    }
+    std::vector<std::uint32_t> objects;
+    for (std::uint32_t l = 0; l < labels.size(); ++l) {
+        const bool isOfOther =
+            model::isPhase(labels[l].className) && labels[l].parent < l && isTaken[labels[l].parent] != 0;
+        if (isTaken[l] != 0 && !isOfOther) objects.push_back(l);
+    }
+    return objects;
+}
+
+std::vector<ObjectQuantities> measureObjects(const volume::SemanticVolume& volume,
+                                             std::span<const std::uint32_t> objects, int threads) {
+    const Measurer measurer(volume);
+    std::vector<ObjectQuantities> results(objects.size());
+    parallelFor(objects.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) results[n] = measurer.measure(objects[n]);
+    });
+    return results;
+}
+
+}  // namespace svt::quantities

@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// The neighbours of the faces of objects: outside air, inside air, or other objects.
+///
+/// Points are spread evenly over each triangle of an object's mesh. From each point a step leads outwards, along the
+/// normal, to the first voxel of something else. So areas are those of the mesh, in any direction. Only their division
+/// depends on voxels. At the border of a contact, a strip of about half a voxel may count to the other side.
+
+#include <svt/quantities/quantities.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace svt::quantities {
+
+/// Where a face looks. North is +y of the coordinate reference system. Faces within 45 degrees of up or down are top or
+/// bottom, whatever their azimuth.
+enum class Facing : std::uint8_t { N, NE, E, SE, S, SW, W, NW, Top, Bottom };
+inline constexpr std::array<std::string_view, 10> kFacingNames{"n",  "ne", "e",  "se",  "s",
+                                                               "sw", "w",  "nw", "top", "bottom"};
+[[nodiscard]] Facing facingOf(Vec3d normal) noexcept;
+
+/// A part of the faces of an object.
+struct TouchingArea {
+    std::uint32_t label = volume::kNoLabel;  ///< the object that it touches; kNoLabel: air
+    bool isOutside = false;                  ///< the air is connected to the border of the grid
+    Facing facing = Facing::N;
+    double area = 0;  ///< m2
+};
+
+/// The faces of each object by their neighbours, ordered by label and facing. Sheets without volume are passed through.
+/// Faces whose surroundings are the object itself touch nothing, and have no entry. An object without a mesh has no entries.
+/// \param objects  of measureObjects()
+/// \param threads  0: all cores; the result does not depend on it
+/// Cost: O(area in voxels), at most 20,000 points for each triangle.
+[[nodiscard]] std::vector<std::vector<TouchingArea>> findTouchingAreas(const volume::SemanticVolume& volume,
+                                                                       std::span<const ObjectQuantities> objects,
+                                                                       int threads = 0);
+
+}  // namespace svt::quantities

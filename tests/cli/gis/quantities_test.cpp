@@ -1,0 +1,146 @@
+// `svt quantities`: take-offs of generated models and of small ones.
+#include "../run_command.hpp"
+#include "../small_model.hpp"
+
+#include <svt/core/test_data_test.hpp>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace svt::test {
+namespace {
+
+using nlohmann::json;
+
+class Quantities : public ::testing::Test {
+protected:
+    void sample(const std::string& file, std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"sample", "house", "-o", file});
+        runSvtWell(folder.path(), more);
+    }
+    json measure(const std::string& file, std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"quantities", file, "--spacing", "0.1", "--json", "-q"});
+        return runSvtForJson(folder.path(), more);
+    }
+    TemporaryFolder folder;
+};
+
+TEST_F(Quantities, HasTheDocumentedKeys) {
+    sample("house.gml");
+    const json report = measure("house.gml", {"--exterior"});
+    const std::set<std::string> expected{"id",           "class",       "name",         "storey",  "material",
+                                         "netVolume",    "grossVolume", "sideArea",     "topArea", "bottomArea",
+                                         "exteriorArea", "openingArea", "formworkArea", "trust",   "bound"};
+    ASSERT_GT(report["rows"].size(), 50u);
+    for (const json& row : report["rows"]) {
+        std::set<std::string> keys;
+        for (const auto& [key, value] : row.items()) keys.insert(key);
+        EXPECT_EQ(keys, expected);
+        EXPECT_NE(row["netVolume"], 0);
+        EXPECT_TRUE(row["formworkArea"].is_null()) << "not asked for";
+        EXPECT_FALSE(row["exteriorArea"].is_null()) << row;
+    }
+    EXPECT_FALSE(report["assumptions"].empty());
+    EXPECT_EQ(report["total"]["objects"], report["rows"].size());
+}
+
+// The model states its volumes; IFC and CityGML of one house have the same sums.
+TEST_F(Quantities, AreThoseOfTheGeneratedHouse) {
+    sample("house.gml");
+    sample("house.ifc", {"--format", "ifc"});
+    const json stated = measure("house.ifc", {"--stated"});
+    std::size_t compared = 0;
+    for (const json& row : stated["stated"]) {
+        ASSERT_FALSE(row["measured"].is_null()) << row;
+        ++compared;
+        EXPECT_NEAR(row["difference"].get<double>(), 0, 1e-3 * row["stated"].get<double>()) << row;
+    }
+    EXPECT_GT(compared, 20u);
+    const double gml = measure("house.gml")["total"]["netVolume"], ifc = measure("house.ifc")["total"]["netVolume"];
+    EXPECT_NEAR(gml, ifc, 1e-4 * gml);
+}
+
+TEST_F(Quantities, SumsByKeysAddUp) {
+    sample("house.gml");
+    const json report = measure("house.gml", {"--by", "class,storey"});
+    double sum = 0;
+    std::size_t objects = 0;
+    for (const json& group : report["sums"]) {
+        EXPECT_EQ(group["by"].size(), 2u);
+        sum += group["netVolume"].is_null() ? 0.0 : group["netVolume"].get<double>();
+        objects += group["objects"].get<std::size_t>();
+    }
+    EXPECT_NEAR(sum, report["total"]["netVolume"].get<double>(), 1e-6);
+    EXPECT_EQ(objects, report["rows"].size());
+}
+
+// Two buildings side by side, 4 x 6 x 3 m: the model has no components, so the buildings are measured.
+TEST_F(Quantities, OfBuildings) {
+    writeText(folder / "two.gml", twoBoxes());
+    const json report = measure("two.gml", {"--exterior"});
+    ASSERT_EQ(report["rows"].size(), 2u);
+    for (const json& row : report["rows"]) {
+        EXPECT_NEAR(row["netVolume"].get<double>(), 72, 1e-3);
+        EXPECT_EQ(row["trust"], "exact");
+        EXPECT_TRUE(row["grossVolume"].is_null()) << "a building has no openings";
+        EXPECT_NEAR(row["topArea"].get<double>(), 24, 1e-3);
+    }
+}
+
+TEST_F(Quantities, WritesFiles) {
+    writeText(folder / "two.gml", twoBoxes());
+    runSvtWell(folder.path(), {"quantities", "two.gml", "--spacing", "0.5", "-o", "q.csv"});
+    const std::string csv = readText(folder / "q.csv");
+    EXPECT_EQ(csv.find("id,class,name,storey,material,netVolume"), 0u) << csv;
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3) << csv;
+    runSvtWell(folder.path(), {"quantities", "two.gml", "--spacing", "0.5", "-o", "q.json"});
+    EXPECT_EQ(json::parse(readText(folder / "q.json"))["rows"].size(), 2u);
+}
+
+TEST_F(Quantities, AnswersEmptyAndWrongQuestions) {
+    writeText(folder / "two.gml", twoBoxes());
+    const CommandResult empty =
+        runSvt(folder.path(), {"quantities", "two.gml", "--spacing", "0.5", "--where", "class=Door"});
+    EXPECT_EQ(empty.exitCode, 0);
+    EXPECT_NE(empty.err.find("no objects are measured"), std::string::npos) << empty.err;
+    EXPECT_NE(runSvt(folder.path(), {"quantities", "two.gml", "--where", "class="}).exitCode, 0);
+    EXPECT_EQ(runSvt(folder.path(), {"quantities", "two.gml", "--between", "all"}).exitCode, 2);
+    const CommandResult none =
+        runSvt(folder.path(), {"quantities", "two.gml", "--spacing", "0.5", "--formwork", "class=Door"});
+    EXPECT_NE(none.exitCode, 0);
+    EXPECT_NE(none.err.find("class=Door"), std::string::npos) << none.err;
+}
+
+// A volume without meshes has volumes, and no areas.
+TEST_F(Quantities, OfAVolumeWithoutMeshesHaveNoAreas) {
+    writeText(folder / "two.gml", twoBoxes());
+    runSvtWell(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "0.5", "--vectors", "none"});
+    const CommandResult result = runSvt(folder.path(), {"quantities", "two.svt", "--json"});
+    EXPECT_NE(result.err.find("no meshes"), std::string::npos) << result.err;
+    for (const json& row : result.json()["rows"]) {
+        EXPECT_NEAR(row["netVolume"].get<double>(), 72, 1e-3);
+        EXPECT_TRUE(row["topArea"].is_null() && row["openingArea"].is_null()) << row;
+    }
+}
+
+// Walls, slabs and beams of the house: the areas of contacts are nearly those of the faces of both sides.
+TEST_F(Quantities, MeasureContacts) {
+    sample("house.gml");
+    const json pairs = runSvtForJson(
+        folder.path(), {"quantities", "house.gml", "--spacing", "0.05", "--json", "-q", "--between",
+                        "class=BuildingConstructiveElement", "--between", "class=BuildingConstructiveElement"});
+    ASSERT_GT(pairs.size(), 20u);
+    double a = 0, b = 0;
+    for (const json& pair : pairs) {
+        a += pair["area"].get<double>();
+        b += pair["areaOfB"].get<double>();
+    }
+    EXPECT_NEAR(a, b, 0.03 * a);
+}
+
+}  // namespace
+}  // namespace svt::test
