@@ -93,8 +93,8 @@ Result<int> runSample(const SampleArguments& arguments) {
         });
     if (writeError) return *writeError;
     if (!written) return written.error();
-    SVT_DO(file->commit());
     if (!arguments.changeList.empty()) SVT_DO(writeChangeList(arguments));
+    SVT_DO(file->commit());
     return kDone;
 }
 

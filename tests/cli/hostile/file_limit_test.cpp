@@ -25,6 +25,8 @@ const LimitedOutput kLimitedOutputs[] = {
     {"--output", {"sample", "house", "-o", "o.json"}},
     {"--output", {"sample", "house", "-o", "o.jsonl"}},
     {"--output", {"sample", "house", "-o", "o.ifc"}},
+    {"--change-list",
+     {"sample", "house", "--format", "citygml3", "-o", "/dev/null", "--change", "1", "--change-list", "o.json"}},
     {"--output", {"sample-city", "--buildings", "1", "-o", "o"}},
     {"--output", {"build", "two.gml", "-o", "o.svt", "--spacing", "1"}},
     {"--report", {"check", "two.gml", "--report", "o.html"}},
