@@ -108,7 +108,10 @@ TEST_F(Diff, AlignsShiftedModels) {
     };
     writeText(folder / "a.gml", modelAt(500000, 5400000, 100));
     writeText(folder / "b.gml", modelAt(500030.03, 5400000, 150));
-    EXPECT_EQ(diff("a.gml", "b.gml").exitCode, 7);
+    const CommandResult apart = diff("a.gml", "b.gml");
+    EXPECT_EQ(apart.exitCode, 7);
+    EXPECT_NE(apart.err.find("do not overlap in space"), std::string::npos) << apart.err;
+    EXPECT_NE(apart.out.find("3 moved"), std::string::npos) << apart.out;
     const CommandResult aligned = diff("a.gml", "b.gml", {"--align", "translation"});
     EXPECT_EQ(aligned.exitCode, 0) << aligned.out;
     EXPECT_NE(aligned.err.find("is moved by -30.0300, "), std::string::npos) << aligned.err;
@@ -119,6 +122,13 @@ TEST_F(Diff, RefusesWhatCannotBeCompared) {
     writeText(folder / "bad.gml", "<broken");
     EXPECT_EQ(diff("a.gml", "bad.gml").exitCode, 3);
     EXPECT_EQ(diff("a.gml", "missing.gml").exitCode, 3);
+    writeText(folder / "nothing.gml", "");
+    writeText(folder / "empty.gml", cityModel(""));
+    for (const char* file : {"nothing.gml", "empty.gml"}) {
+        const CommandResult result = diff(file, "a.gml");
+        EXPECT_EQ(result.exitCode, 3) << result.toString();
+        EXPECT_NE(result.err.find(file), std::string::npos) << result.err;
+    }
     EXPECT_EQ(diff("a.gml", "a.gml", {"--tolerance", "0"}).exitCode, 2);
     EXPECT_EQ(diff("a.gml", "a.gml", {"-o", "d.png"}).exitCode, 2);
     EXPECT_EQ(diff("a.gml", "a.gml", {"-o", "a.gml"}).exitCode, 2);
