@@ -63,8 +63,10 @@ std::vector<char> partsOf(const volume::SemanticVolume& volume, std::span<const 
     return isPart;
 }
 
+// Terrain, land use, roads. Not a class that no one knows, which may be a building.
 bool isSoil(const volume::Label& label) {
-    return model::classRank(label.className) == model::ClassRank::Other && !model::isSpace(label.className);
+    return model::classRank(label.className) == model::ClassRank::Other &&
+           model::insideOf(label.className) == model::Inside::Never;
 }
 
 // Objects without a mesh have no faces: their areas stay empty.

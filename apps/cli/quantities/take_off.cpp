@@ -41,22 +41,23 @@ enum Figure : std::size_t {
 struct FigureText {
     const char *name, *title;
     bool isSummed;
+    Known ObjectQuantities::*quantity = nullptr;  // none: a figure of the take-off
 };
-constexpr std::array<FigureText, kFigures> kTexts{{{"netVolume", "net m3", true},
-                                                   {"grossVolume", "gross m3", true},
-                                                   {"sideArea", "side m2", true},
-                                                   {"topArea", "top m2", true},
-                                                   {"bottomArea", "bottom m2", true},
-                                                   {"outerArea", "", true},
+constexpr std::array<FigureText, kFigures> kTexts{{{"netVolume", "net m3", true, &ObjectQuantities::netVolume},
+                                                   {"grossVolume", "gross m3", true, &ObjectQuantities::grossVolume},
+                                                   {"sideArea", "side m2", true, &ObjectQuantities::sideArea},
+                                                   {"topArea", "top m2", true, &ObjectQuantities::topArea},
+                                                   {"bottomArea", "bottom m2", true, &ObjectQuantities::bottomArea},
+                                                   {"outerArea", "", true, &ObjectQuantities::outerArea},
                                                    {"exteriorArea", "exterior m2", true},
-                                                   {"openingArea", "openings m2", true},
+                                                   {"openingArea", "openings m2", true, &ObjectQuantities::openingArea},
                                                    {"formworkArea", "formwork m2", true},
                                                    {"formworkTopArea", "", true},
-                                                   {"thickness", "thick m", false},
-                                                   {"length", "long m", false},
-                                                   {"width", "", false},
-                                                   {"height", "high m", false},
-                                                   {"perimeter", "", false}}};
+                                                   {"thickness", "thick m", false, &ObjectQuantities::thickness},
+                                                   {"length", "long m", false, &ObjectQuantities::length},
+                                                   {"width", "", false, &ObjectQuantities::width},
+                                                   {"height", "high m", false, &ObjectQuantities::height},
+                                                   {"perimeter", "", false, &ObjectQuantities::perimeter}}};
 using Figures = std::array<Known, kFigures>;
 
 bool isAsked(const TakeOff& takeOff, std::size_t figure) {
@@ -68,18 +69,8 @@ bool isAsked(const TakeOff& takeOff, std::size_t figure) {
 Figures figuresOf(const TakeOff& takeOff, std::size_t n) {
     const ObjectQuantities& object = takeOff.objects[n];
     Figures figures;
-    figures[kNet] = object.netVolume;
-    figures[kGross] = object.grossVolume;
-    figures[kSide] = object.sideArea;
-    figures[kTop] = object.topArea;
-    figures[kBottom] = object.bottomArea;
-    figures[kOuter] = object.outerArea;
-    figures[kOpening] = object.openingArea;
-    figures[kThickness] = object.thickness;
-    figures[kLength] = object.length;
-    figures[kWidth] = object.width;
-    figures[kHeight] = object.height;
-    figures[kPerimeter] = object.perimeter;
+    for (std::size_t f = 0; f < kFigures; ++f)
+        if (kTexts[f].quantity != nullptr) figures[f] = object.*kTexts[f].quantity;
     if (!takeOff.exterior.empty() && takeOff.exterior[n])
         figures[kExterior] = std::accumulate(takeOff.exterior[n]->begin(), takeOff.exterior[n]->end(), 0.0);
     if (!takeOff.formwork.empty()) {
@@ -249,7 +240,10 @@ Json assumptionsOf(const TakeOff& takeOff) {
     if (!takeOff.exterior.empty()) list.push_back("north is +y of the coordinate reference system");
     if (!takeOff.exterior.empty()) list.push_back("outside air is air that is connected to the border of the model");
     if (!takeOff.formwork.empty())
-        list.push_back("soil is only where the model has terrain; faces that look up need formwork");
+        list.push_back(
+            "soil is only where terrain is a body: below a terrain surface, faces count as free; faces that look up "
+            "need "
+            "formwork");
     return list;
 }
 

@@ -2,6 +2,7 @@
 
 #include <svt/analyze/label_measures.hpp>
 #include <svt/core/hash.hpp>
+#include <svt/volume/label_triangles.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -9,8 +10,6 @@
 
 namespace svt::compare {
 namespace {
-
-using Triangle = volume::VectorParts::Triangle;
 
 // The symmetric product of two vectors, in the order of Shape::moments.
 std::array<double, 6> productOf(Vec3d a, Vec3d b) noexcept {
@@ -20,17 +19,6 @@ std::array<double, 6> productOf(Vec3d a, Vec3d b) noexcept {
             0.5 * (a.x * b.y + a.y * b.x),
             0.5 * (a.y * b.z + a.z * b.y),
             0.5 * (a.z * b.x + a.x * b.z)};
-}
-
-// A digest of one triangle that does not depend on its first corner.
-std::uint64_t digestOf(const Triangle& triangle, const volume::VectorParts& parts) noexcept {
-    std::array<Vec3i, 3> points{};
-    for (int c = 0; c < 3; ++c) points[std::size_t(c)] = parts.points[triangle.corners[std::size_t(c)]];
-    std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end());
-    std::uint64_t hash = 1;
-    for (const Vec3i& point : points)
-        for (int axis = 0; axis < 3; ++axis) hash = mixHash(hash, static_cast<std::uint32_t>(point[axis]));
-    return hash ^ hash >> 32;
 }
 
 // Sums over the triangles of one object, about a point near them.
@@ -56,7 +44,7 @@ void measureFaces(Shape& shape) {
             for (std::size_t m = 0; m < 6; ++m) second[m] += own[m] * (area / 12);
         }
         for (std::size_t m = 0; m < 6; ++m) second[m] += whole[m] * (area / 12);
-        shape.digest += digestOf(faces.triangles[t], *faces.parts);
+        shape.digest += volume::digestOf(*faces.parts, faces.triangles[t]);
     }
     const Vec3d center = shape.area > 0 ? first / shape.area : Vec3d{};
     const std::array<double, 6> shift = productOf(center, center);
@@ -64,13 +52,6 @@ void measureFaces(Shape& shape) {
     shape.center = about + center;
     shape.volume = volume;
     shape.digest = std::max<std::uint64_t>(1, mixHash(shape.digest, std::bit_cast<std::uint64_t>(faces.parts->unit)));
-}
-
-// Whether the triangles enclose the volume that the label states. Those of a file may not, whatever it states.
-bool enclosesItsVolume(const Shape& shape, const volume::Label& label) {
-    if (!volume::hasClosedMesh(label.filling) || shape.faces.triangles.empty()) return false;
-    const double rounding = shape.area * shape.faces.parts->unit + 1e-6 * std::abs(label.volume);
-    return std::abs(shape.volume.value_or(0) - label.volume) <= rounding;
 }
 
 // Voxels that others took, and those that may lie outside of an open shell.
@@ -85,23 +66,19 @@ std::vector<std::uint64_t> uncertainVoxels(const volume::LabelTable& table) {
 
 std::vector<Shape> findShapes(const volume::SemanticVolume& volume, Vec3d offset) {
     const std::vector<volume::Label>& labels = volume.labels.labels;
-    const std::vector<Triangle>& triangles = volume.vectors.triangles;
     std::vector<Shape> shapes;
     const std::vector<std::uint64_t> uncertain = uncertainVoxels(volume.labels);
     bool needsBoxes = false;
-    auto begin = triangles.begin();
     for (std::uint32_t l = 0; l < labels.size(); ++l) {
-        const auto end = std::find_if(begin, triangles.end(), [&](const Triangle& t) { return t.label != l; });
         Shape shape;
         shape.label = l;
-        shape.faces = {std::span(triangles).subspan(std::size_t(begin - triangles.begin()), std::size_t(end - begin)),
-                       &volume.vectors, offset};
-        begin = end;
+        shape.faces = {volume::trianglesOf(volume.vectors, l), &volume.vectors, offset};
         if (shape.faces.triangles.empty() && labels[l].voxels == 0) continue;
         shape.voxels = labels[l].voxels;
         shape.uncertainVoxels = uncertain[l];
         measureFaces(shape);
-        shape.isSolid = enclosesItsVolume(shape, labels[l]);
+        shape.isSolid = shape.volume && !shape.faces.triangles.empty() &&
+                        volume::enclosesStatedVolume(labels[l], *shape.volume, shape.area, volume.vectors.unit);
         if (!shape.isSolid) shape.volume.reset();
         shape.isCounted = !shape.isSolid && labels[l].filling != volume::Filling::Surface;
         needsBoxes = needsBoxes || shape.faces.triangles.empty();

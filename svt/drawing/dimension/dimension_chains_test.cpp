@@ -85,6 +85,15 @@ TEST(Dimensions, RoomsBeforeAGapInTheWallAreRooms) {
     EXPECT_EQ(chainsOf(planOf(boxes), DimensionSide::Below), (Chains{{1000, 1200, 5800}, {300, 7400, 300}, {8000}}));
 }
 
+// A pane at the inner side of the wall does not end the room behind it.
+TEST(Dimensions, PanesAtTheInnerSideOfAWallHaveNoStopsOfRooms) {
+    Boxes boxes = house();
+    boxes.addLabel("pane", "Window", volume::Filling::Surface, 0);
+    boxes.addQuad({Vec3d{1, 0.35, 0.5}, {2.2, 0.35, 0.5}, {2.2, 0.35, 2.5}, {1, 0.35, 2.5}});
+    EXPECT_EQ(chainsOf(planOf(boxes), DimensionSide::Below),
+              (Chains{{1000, 1200, 5800}, {300, 2700, 200, 4500, 300}, {8000}}));
+}
+
 // Without rooms in the model, the air in a niche beside a corner continues the air of the room.
 TEST(Dimensions, NichesInWallsAlongTheSightAreNoAirOfRooms) {
     Boxes boxes;

@@ -1,10 +1,8 @@
 #include <svt/quantities/quantities.hpp>
 
 #include <svt/analyze/exclusive_volumes.hpp>
-#include <svt/core/hash.hpp>
+#include <svt/volume/label_triangles.hpp>
 
-#include <algorithm>
-#include <array>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -18,16 +16,9 @@ using MeshDigest = std::tuple<std::uint64_t, std::uint64_t, std::uint64_t>;
 std::vector<MeshDigest> digestsOf(const volume::SemanticVolume& volume) {
     std::vector<MeshDigest> digests(volume.labels.labels.size());
     for (const auto& triangle : volume.vectors.triangles) {
-        std::array<Vec3i, 3> points{};
-        for (std::size_t c = 0; c < 3; ++c) points[c] = volume.vectors.points[triangle.corners[c]];
-        std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end());
-        std::array<std::uint64_t, 2> hash{1, 2};
-        for (const Vec3i& point : points)
-            for (int axis = 0; axis < 3; ++axis)
-                for (std::uint64_t& one : hash) one = mixHash(one, static_cast<std::uint32_t>(point[axis]));
         auto& [first, second, count] = digests[triangle.label];
-        first += hash[0] ^ hash[0] >> 32;
-        second += hash[1] ^ hash[1] >> 29;
+        first += volume::digestOf(volume.vectors, triangle, 1);
+        second += volume::digestOf(volume.vectors, triangle, 2);
         ++count;
     }
     return digests;

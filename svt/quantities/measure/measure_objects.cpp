@@ -6,6 +6,7 @@
 #include <svt/model/classes.hpp>
 #include <svt/quantities/measure/plate.hpp>
 #include <svt/quantities/measure/silhouette.hpp>
+#include <svt/volume/label_triangles.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -60,10 +61,8 @@ bool mayHaveOpenings(const Label& label) { return model::classRank(label.classNa
 class Measurer {
 public:
     explicit Measurer(const volume::SemanticVolume& volume)
-        : volume_(volume), labels_(volume.labels.labels), lost_(labels_.size(), 0), first_(labels_.size() + 1, 0) {
+        : volume_(volume), labels_(volume.labels.labels), lost_(labels_.size(), 0) {
         for (const volume::Overlap& overlap : volume.labels.overlaps) lost_[overlap.b] += overlap.voxels;
-        for (const auto& triangle : volume.vectors.triangles) ++first_[triangle.label + 1];
-        for (std::size_t l = 0; l < labels_.size(); ++l) first_[l + 1] += first_[l];
         const Vec3d s = volume.grid.spacing();
         halfVoxel_ = std::max({s.x, s.y, s.z}) / 2;
     }
@@ -102,21 +101,19 @@ private:
     [[nodiscard]] std::vector<Corners> trianglesOf(std::uint32_t label) const {
         std::vector<Corners> triangles;
         const volume::VectorParts& parts = volume_.vectors;
-        if (first_[label] == first_[label + 1]) return triangles;
-        const Vec3d origin = parts.position(parts.triangles[first_[label]].corners[0], {});
-        for (std::size_t t = first_[label]; t < first_[label + 1]; ++t) {
-            const auto& c = parts.triangles[t].corners;
+        const auto stored = volume::trianglesOf(parts, label);
+        if (stored.empty()) return triangles;
+        const Vec3d origin = parts.position(stored.front().corners[0], {});
+        for (const auto& [own, c] : stored)
             triangles.push_back(
                 {parts.position(c[0], -origin), parts.position(c[1], -origin), parts.position(c[2], -origin)});
-        }
         return triangles;
     }
 
     [[nodiscard]] bool enclosesItsVolume(std::uint32_t label, std::span<const Corners> triangles) const {
-        const auto stated = analyze::solidVolumeOf(labels_[label]);
-        if (!stated || triangles.empty()) return false;
         const FaceSums sums = sumsOf(triangles);
-        return std::abs(sums.volume - *stated) <= sums.all() * volume_.vectors.unit + 1e-6 * *stated;
+        return sums.all() > 0 &&
+               volume::enclosesStatedVolume(labels_[label], sums.volume, sums.all(), volume_.vectors.unit);
     }
 
     // Adds the volume of a part, its bound and its source; the least exact source is that of the sum.
@@ -217,7 +214,6 @@ private:
     const volume::SemanticVolume& volume_;
     const std::vector<Label>& labels_;
     std::vector<std::uint64_t> lost_;  // by label: voxels that others took
-    std::vector<std::size_t> first_;   // of l: triangles [first_[l], first_[l + 1])
     double halfVoxel_ = 0;
 };
 

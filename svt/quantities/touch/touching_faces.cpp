@@ -2,6 +2,7 @@
 
 #include <svt/analyze/outside_faces.hpp>
 #include <svt/core/parallel.hpp>
+#include <svt/volume/label_triangles.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +21,7 @@ constexpr double kStepA = 0.7548776662466927, kStepB = 0.5698402909980532;
 class Toucher {
 public:
     explicit Toucher(const volume::SemanticVolume& volume)
-        : volume_(volume),
-          labelOf_(volume.labels.labelOfScalar()),
-          air_(volume.columns, labelOf_),
-          first_(volume.labels.labels.size() + 1, 0) {
-        for (const auto& triangle : volume.vectors.triangles) ++first_[triangle.label + 1];
-        for (std::size_t l = 1; l < first_.size(); ++l) first_[l] += first_[l - 1];
+        : volume_(volume), labelOf_(volume.labels.labelOfScalar()), air_(volume.columns, labelOf_) {
         const Vec3d s = volume.grid.spacing();
         step_ = std::max({s.x, s.y, s.z}) / 2;
     }
@@ -34,8 +30,7 @@ public:
         using Key = std::tuple<std::uint32_t, bool, Facing>;
         std::map<Key, double> areas;
         for (const std::uint32_t part : object.parts)
-            for (std::size_t t = first_[part]; t < first_[part + 1]; ++t) {
-                const auto& c = volume_.vectors.triangles[t].corners;
+            for (const auto& [label, c] : volume::trianglesOf(volume_.vectors, part)) {
                 const Vec3d origin = volume_.grid.origin();
                 const Vec3d a = volume_.vectors.position(c[0], origin), ab = volume_.vectors.position(c[1], origin) - a,
                             ac = volume_.vectors.position(c[2], origin) - a;
@@ -89,8 +84,7 @@ private:
     const volume::SemanticVolume& volume_;
     std::vector<std::uint32_t> labelOf_;
     analyze::OutsideAir air_;
-    std::vector<std::size_t> first_;  // of l: triangles [first_[l], first_[l + 1])
-    double step_ = 0;                 // metres
+    double step_ = 0;  // metres
 };
 
 }  // namespace

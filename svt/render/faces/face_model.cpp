@@ -1,5 +1,6 @@
 #include <svt/render/face_model.hpp>
 #include <svt/render/faces/face_data.hpp>
+#include <svt/volume/label_triangles.hpp>
 
 #include <algorithm>
 #include <span>
@@ -9,15 +10,6 @@ namespace svt::render {
 namespace {
 
 using Triangles = std::span<const volume::VectorParts::Triangle>;
-
-// The triangles of a label.
-Triangles trianglesOf(const volume::VectorParts& parts, std::uint32_t label) {
-    const auto isBelow = [](const auto& triangle, std::uint32_t l) { return triangle.label < l; };
-    const auto first = std::lower_bound(parts.triangles.begin(), parts.triangles.end(), label, isBelow);
-    const auto end = std::lower_bound(first, parts.triangles.end(), label + 1, isBelow);
-    return Triangles(parts.triangles)
-        .subspan(static_cast<std::size_t>(first - parts.triangles.begin()), static_cast<std::size_t>(end - first));
-}
 
 // Whether each edge is used as often in one direction as in the other.
 bool isClosed(Triangles triangles) {
@@ -88,7 +80,7 @@ std::vector<Source> sourcesOf(const volume::SemanticVolume& volume, std::span<co
         if (label.count == 0 || label.filling == volume::Filling::None) continue;
         sources[l] = Source::Voxels;
         if (label.count != 1) continue;
-        const Triangles triangles = trianglesOf(volume.vectors, l);
+        const Triangles triangles = volume::trianglesOf(volume.vectors, l);
         if (volume::hasClosedMesh(label.filling) && isClosed(triangles)) sources[l] = Source::Solid;
         if (label.filling == volume::Filling::Surface && !triangles.empty()) sources[l] = Source::Sheet;
         if (label.filling == volume::Filling::Body && !triangles.empty()) sources[l] = Source::Skin;
@@ -153,7 +145,7 @@ Result<std::unique_ptr<FaceModel>> FaceModel::make(const volume::SemanticVolume&
         }
         ++(isSolid ? counts.solids : counts.sheets);
         if (sources[l] == Source::Skin) data->isSkinScalar[label.first] = 1;
-        for (const auto& triangle : trianglesOf(parts, l)) triangles.push_back({triangle.corners, object});
+        for (const auto& triangle : volume::trianglesOf(parts, l)) triangles.push_back({triangle.corners, object});
     }
     counts.triangles = triangles.size();
     std::vector<Vec3d> points;

@@ -37,7 +37,7 @@ std::string heightLine(const drawing::RoomArea& room, SheetLanguage language) {
     return fmt::format("h {}{} m", isLevel ? "" : "\u2264 ", numberText(room.height, 2, language));
 }
 
-// Words that people and programs write where there is no value.
+// Texts of files in place of a missing value.
 bool isNoValue(const std::string& text) {
     constexpr std::string_view kTexts[] = {"n/a",   "na",   "n.a.", "none",      "tbd",    "tbc",
                                            "-",     "--",   "?",    "undefined", "<none>", "nicht definiert",

@@ -63,7 +63,9 @@ TEST_F(KnownChanges, AreAllFoundAndNoOthers) {
     runSvtWell(folder.path(), {"sample", "house", "-o", "old.gml"});
     runSvtWell(folder.path(), {"build", "old.gml", "-o", "old.svt", "-q", "--spacing", "0.3", "--vectors", "meshes"});
     std::map<std::string, int> edits;
-    for (int seed = 0; seed < 20; ++seed) {
+    std::vector<int> seeds{64, 109, 133};  // small moves, at which the rounding of points matters
+    for (int seed = 0; seed < 20; ++seed) seeds.push_back(seed);
+    for (const int seed : seeds) {
         runSvtWell(folder.path(), {"sample", "house", "-o", "new.gml", "--change", std::to_string(seed),
                                    "--change-list", "known.json"});
         const json answer = json::parse(readText(folder / "known.json"));

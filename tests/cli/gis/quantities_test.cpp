@@ -115,6 +115,22 @@ TEST_F(Quantities, AnswersEmptyAndWrongQuestions) {
     EXPECT_NE(none.err.find("class=Door"), std::string::npos) << none.err;
 }
 
+// Two cubes of 2 m beside each other: formwork has all faces but the two that touch. The third cube is not concrete.
+TEST_F(Quantities, MeasureFormwork) {
+    const auto cubeAt = [](const char* id, double x) { return building(id, solid(boxFaces(x, 0, 0, x + 2, 2, 2))); };
+    writeText(folder / "cubes.gml", cityModel(cubeAt("a", 0) + cubeAt("b", 2) + cubeAt("c", 4)));
+    const json report = measure("cubes.gml", {"--where", "class=Building", "--formwork", "id=a or id=b"});
+    for (const json& row : report["rows"]) {
+        if (row["id"] == "c")
+            EXPECT_TRUE(row["formworkArea"].is_null()) << row;
+        else
+            EXPECT_NEAR(row["formworkArea"].get<double>(), 20, 0.1) << row;
+    }
+    EXPECT_NEAR(report["total"]["formworkArea"].get<double>(), 40, 0.2);
+    EXPECT_NEAR(report["total"]["formworkTopArea"].get<double>(), 8, 0.1);
+    EXPECT_EQ(report["total"]["unknown"]["formworkArea"], 1);
+}
+
 // A volume without meshes has volumes, and no areas.
 TEST_F(Quantities, OfAVolumeWithoutMeshesHaveNoAreas) {
     writeText(folder / "two.gml", twoBoxes());
