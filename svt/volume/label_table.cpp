@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace svt::volume {
@@ -31,6 +32,11 @@ bool fillingFromName(std::string_view name, Filling& filling) noexcept {
             return true;
         }
     return false;
+}
+
+bool enclosesStatedVolume(const Label& label, double enclosed, double area, double unit) noexcept {
+    return hasClosedMesh(label.filling) &&
+           std::abs(enclosed - label.volume) <= area * unit + 1e-6 * std::abs(label.volume);
 }
 
 Scalar LabelTable::scalarCount() const noexcept {

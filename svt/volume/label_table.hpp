@@ -62,6 +62,13 @@ struct Label {
     friend bool operator==(const Label&, const Label&) = default;
 };
 
+/// Whether triangles of a label are the closed mesh whose volume the label states. Those of a file may not be, whatever
+/// it states.
+/// \param enclosed  m3: the sum over signed tetrahedra of the triangles
+/// \param area      m2 of the triangles
+/// \param unit      metres: VectorParts::unit
+[[nodiscard]] bool enclosesStatedVolume(const Label& label, double enclosed, double area, double unit) noexcept;
+
 /// Voxels claimed by two objects and assigned to `a`.
 struct Overlap {
     std::uint32_t a = 0, b = 0;  ///< labels

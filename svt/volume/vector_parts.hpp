@@ -47,6 +47,16 @@ struct VectorParts {
     friend bool operator==(const VectorParts&, const VectorParts&) = default;
 };
 
+/// The triangles of a label. Cost: O(log n) for n triangles of all labels.
+[[nodiscard]] std::span<const VectorParts::Triangle> trianglesOf(const VectorParts& parts,
+                                                                 std::uint32_t label) noexcept;
+
+/// A digest of the places of the corners, with their orientation, from any first corner. The sum over the triangles of a
+/// label does not depend on their order.
+/// \param seed  other seeds give independent digests
+[[nodiscard]] std::uint64_t digestOf(const VectorParts& parts, const VectorParts::Triangle& triangle,
+                                     std::uint64_t seed = 1) noexcept;
+
 /// Checks parts from an untrusted source.
 /// \return success, or BadVolume that names the unit if it is invalid, or the part that is out of order or refers to a
 ///         missing label or point

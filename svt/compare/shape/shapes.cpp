@@ -2,7 +2,6 @@
 
 #include <svt/analyze/label_measures.hpp>
 #include <svt/core/hash.hpp>
-#include <svt/volume/label_triangles.hpp>
 
 #include <algorithm>
 #include <bit>

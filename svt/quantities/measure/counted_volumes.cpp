@@ -1,7 +1,6 @@
 #include <svt/quantities/quantities.hpp>
 
 #include <svt/analyze/exclusive_volumes.hpp>
-#include <svt/volume/label_triangles.hpp>
 
 #include <set>
 #include <tuple>

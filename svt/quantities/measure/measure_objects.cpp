@@ -6,7 +6,6 @@
 #include <svt/model/classes.hpp>
 #include <svt/quantities/measure/plate.hpp>
 #include <svt/quantities/measure/silhouette.hpp>
-#include <svt/volume/label_triangles.hpp>
 
 #include <algorithm>
 #include <cmath>

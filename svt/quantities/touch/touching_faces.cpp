@@ -2,7 +2,6 @@
 
 #include <svt/analyze/outside_faces.hpp>
 #include <svt/core/parallel.hpp>
-#include <svt/volume/label_triangles.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 #include <svt/render/face_model.hpp>
 #include <svt/render/faces/face_data.hpp>
-#include <svt/volume/label_triangles.hpp>
 
 #include <algorithm>
 #include <span>

@@ -116,5 +116,22 @@ TEST(VectorParts, AnyDamageIsToldOrReadsAsParts) {
     }
 }
 
+TEST(VectorParts, TrianglesOfALabelHaveADigest) {
+    VectorParts parts;
+    parts.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
+    parts.triangles = {{1, {0, 1, 2}}, {3, {1, 2, 0}}, {3, {0, 1, 3}}, {4, {0, 2, 1}}};
+    EXPECT_TRUE(trianglesOf(parts, 0).empty());
+    EXPECT_EQ(trianglesOf(parts, 1).size(), 1u);
+    EXPECT_EQ(trianglesOf(parts, 3).data(), parts.triangles.data() + 1);
+    EXPECT_EQ(trianglesOf(parts, 3).size(), 2u);
+    EXPECT_EQ(trianglesOf(parts, 4).size(), 1u);
+    EXPECT_TRUE(trianglesOf(parts, 5).empty());
+    const auto digest = [&](std::size_t t, std::uint64_t seed) { return digestOf(parts, parts.triangles[t], seed); };
+    EXPECT_EQ(digest(0, 1), digest(1, 1)) << "another first corner";
+    EXPECT_NE(digest(0, 1), digest(2, 1));
+    EXPECT_NE(digest(0, 1), digest(3, 1)) << "another orientation";
+    EXPECT_NE(digest(0, 1), digest(0, 2));
+}
+
 }  // namespace
 }  // namespace svt::volume
