@@ -23,6 +23,12 @@ namespace svt::analyze {
                                                      std::uint64_t work = std::uint64_t{1} << 28);
 inline constexpr std::size_t kMostClaims = 8;
 
+/// A volume of some labels, without voxels, for exclusiveMeasures() and sections: as if it had nothing else. Voxels that
+/// other labels took belong to the kept ones again.
+/// \param isKept  by label
+/// Cost: O(points and triangles of all labels).
+[[nodiscard]] volume::SemanticVolume keepLabels(const volume::SemanticVolume& volume, const std::vector<char>& isKept);
+
 /// The feature that each label counts to: the finest of `features` whose extent contains it, and itself if it is one of
 /// them. kNoLabel outside of all extents. So each label counts once, however features contain each other: a wall and its
 /// layers, a storey and its rooms.

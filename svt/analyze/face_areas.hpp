@@ -27,7 +27,8 @@ struct CountedFaces {
     FaceKind kind = FaceKind::Roof;
     std::optional<double> area;  ///< m2; empty: unknown, it has no mesh
 };
-/// The labels of each kind in an extent, ascending. Each face of the model is one of one label.
+/// The labels of each kind in an extent, ascending. Each face of the model is one of one label. Windows and doors of rooms
+/// count only if the extent has no others: a window often has a surface in the room, too.
 /// \param extent  ascending, see Extents
 /// \param areas   of meshAreas()
 [[nodiscard]] std::vector<CountedFaces> countedFaces(const volume::LabelTable& labels,

@@ -125,6 +125,7 @@ enum class Code : std::uint16_t {
     BadSheets = 511,           ///< a file of sheets that does not follow its schema
     StoreyLevelDiffers = 512,  ///< the declared level of a storey contradicts its rooms or slabs
     NetExceedsGross = 513,     ///< the rooms of a level have more area than its gross floor area
+    RoomsShareSpace = 514,     ///< rooms of a level overlap, or are zones; their sums count shared space once
     // 6xx: cities
     BadPlan = 601,         ///< not the plan of a city, or a damaged one
     PlanVersion = 602,     ///< a plan that another version of the program wrote

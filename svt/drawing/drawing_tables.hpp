@@ -20,6 +20,7 @@ namespace svt::drawing {
 
 enum class PartRole : std::uint8_t;  // dimension/part_roles.hpp
 struct HatchChoice;                  // hatches.hpp
+struct RoomShare;                    // room_floor_areas.hpp
 
 /// Facts about a label that follow from its class and its place in the tree.
 struct LabelFacts {
@@ -78,6 +79,7 @@ public:
     [[nodiscard]] std::shared_ptr<const std::vector<render::Hatch>> hatches() const;
     [[nodiscard]] const std::vector<PartRole>& roles() const;                   ///< partRoles() of the volume
     [[nodiscard]] const std::vector<std::optional<double>>& roomAreas() const;  ///< roomFloorAreas() of the volume
+    [[nodiscard]] const std::vector<RoomShare>& roomShares() const;             ///< roomShares() of the volume
     [[nodiscard]] const std::vector<LabelFacts>& facts() const;                 ///< by label
     [[nodiscard]] const std::vector<MeshRun>& runs() const;                     ///< of all triangles, in their order
     [[nodiscard]] const PlanHulls& plans() const;
@@ -92,6 +94,7 @@ private:
     mutable std::shared_ptr<const std::vector<render::Hatch>> hatches_;
     mutable std::optional<std::vector<PartRole>> roles_;
     mutable std::optional<std::vector<std::optional<double>>> roomAreas_;
+    mutable std::shared_ptr<const std::vector<RoomShare>> roomShares_;
     mutable std::optional<std::vector<LabelFacts>> facts_;
     mutable std::optional<std::vector<MeshRun>> runs_;
     mutable std::optional<PlanHulls> plans_;

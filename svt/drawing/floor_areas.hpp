@@ -40,16 +40,20 @@ struct RoomArea {
     std::optional<double> stated{};  ///< m2: the area that the file states, see statedFloorArea()
     double height = 0;               ///< metres, from its lowest to its highest point
     double volume = 0;               ///< m3; 0: unknown
+    double countedArea = 0;          ///< m2 in sums: `area` without the floors of smaller rooms in it; 0: a zone
+    double countedVolume = 0;        ///< m3 in sums
     bool isExact = false;            ///< from a closed mesh; otherwise from a section of its voxels
+    bool isZone = false;             ///< not a room, see RoomShare
+    bool isShared = false;           ///< smaller rooms claim a part of it, see RoomShare
 };
 
-/// Sums of a level, m2.
+/// Sums of a level, m2. Space that rooms share counts once, for the smallest one.
 struct LevelArea {
     double gross = 0, net = 0, construction = 0;
     double use = 0, technical = 0, traffic = 0, unknown = 0;  ///< parts of `net`
     double grossBound = 0;  ///< error bound of `gross`, without that of the floor: sum of SectionComponent::areaBound
-    std::size_t rooms = 0;
-    bool isExact = false;  ///< floor, gross area and all rooms are from meshes
+    std::size_t rooms = 0;  ///< without zones
+    bool isExact = false;   ///< floor, gross area and all rooms are from meshes
     /// Whether the level has rooms. Others, such as foundations and roofs, do not count as floors.
     bool isFloor = false;
     /// Whether construction is cut. Otherwise the model has only rooms, and `gross` and `construction` are unknown.
@@ -79,7 +83,7 @@ struct FloorAreas {
 
 class DrawingTables;  // drawing_tables.hpp
 
-/// Measures the floors. Rooms lower than 1.5 m are voids and do not count; nor do spaces that are named after a roof,
+/// Measures the floors. Space that several rooms claim counts once, see RoomShare. Rooms lower than 1.5 m are voids and do not count; nor do spaces that are named after a roof,
 /// such as "Roof". For the level of a room, see levelsOfLabels().
 /// Storeys and units do not count as rooms.
 /// \param levels   of findLevels()
@@ -91,7 +95,8 @@ class DrawingTables;  // drawing_tables.hpp
                                                    const std::vector<BuildingLevel>& levels, int threads = 0,
                                                    const DrawingTables* tables = nullptr);
 
-/// Reports levels whose rooms have more area than their plan encloses (NetExceedsGross).
+/// Reports levels whose rooms have more area than their plan encloses (NetExceedsGross), and levels with zones or
+/// rooms that share space (RoomsShareSpace).
 void reportAreas(const FloorAreas& areas, const std::vector<BuildingLevel>& levels,
                  const volume::SemanticVolume& volume, Diagnostics& log);
 

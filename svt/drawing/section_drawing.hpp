@@ -80,6 +80,7 @@ struct SectionComponent {
     double lineLength = 0;  ///< total length of its lines, metres
     /// Rooms in plans: the floor area of its closed mesh, m2, see roomFloorAreas(); the area in stamps and schedules.
     std::optional<double> floorArea{};
+    bool isZone = false;  ///< plans: a room without stamp and dimensions, see RoomShare::isZone
 
     /// The area to print in the room, m2.
     [[nodiscard]] double stampArea() const noexcept { return floorArea.value_or(area); }

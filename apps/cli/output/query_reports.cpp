@@ -428,13 +428,14 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
                  {"bgf", "BGF", 2},
                  {"exact", "exact"},
                  {"statedArea", "stated m2", 2},
-                 {"areaDifference", "difference m2", 2}},
+                 {"areaDifference", "difference m2", 2},
+                 {"countedArea", "", 2}},
                 {}};
     const double datum = dot(volume.grid.origin(), volume.grid.axes()[2]), zero = drawing::zeroLevel(levels);
     for (const drawing::RoomArea& room : areas->rooms) {
         if (!isIn(selected, room.label)) continue;
         const auto use = drawing::roomUseName(room.use);
-        Row row{"room",
+        Row row{room.isZone ? "zone" : "room",
                 volume.labels.labels[room.label].id,
                 room.number.empty() ? Cell() : Cell(room.number),
                 room.name,
@@ -452,6 +453,7 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
         const bool isCompared = room.stated && room.area > 0;
         row.push_back(room.stated ? Cell(*room.stated) : Cell());
         row.push_back(isCompared ? Cell(std::round((room.area - *room.stated) * 1e4) / 1e4 + 0.0) : Cell());
+        row.push_back(room.area > 0 ? Cell(room.countedArea) : Cell());
         table.rows.push_back(std::move(row));
     }
     const auto addSums = [&](const char* kind, const drawing::LevelArea& sums, const drawing::BuildingLevel* level) {
@@ -466,7 +468,7 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
         for (const double value : {sums.use, sums.technical, sums.traffic, sums.unknown, sums.net})
             row.push_back(known(sums.isFloor, value));
         row.insert(row.end(), {known(hasGross && !sums.netExceedsGross(), sums.construction),
-                               known(hasGross, sums.gross), sums.isExact, nullptr, nullptr});
+                               known(hasGross, sums.gross), sums.isExact, nullptr, nullptr, nullptr});
         table.rows.push_back(std::move(row));
     };
     for (std::size_t n = 0; n < levels.size(); ++n) addSums("storey", areas->levels[n], &levels[n]);

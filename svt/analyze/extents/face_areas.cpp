@@ -1,5 +1,7 @@
 #include <svt/analyze/face_areas.hpp>
 
+#include <svt/model/classes.hpp>
+
 #include <algorithm>
 #include <string>
 
@@ -27,6 +29,16 @@ bool isPartOfCounted(const volume::LabelTable& table, std::uint32_t label, FaceK
     return false;
 }
 
+// Whether the label is a part of a room, such as the face of a window towards the room.
+bool isInRoom(const volume::LabelTable& table, std::uint32_t label) {
+    std::uint32_t below = label;
+    for (std::uint32_t above = table.labels[label].parent; above < below; above = table.labels[above].parent) {
+        if (model::classRank(table.labels[above].className) == model::ClassRank::Room) return true;
+        below = above;
+    }
+    return false;
+}
+
 }  // namespace
 
 std::vector<std::optional<double>> meshAreas(const volume::SemanticVolume& volume) {
@@ -47,6 +59,16 @@ std::vector<CountedFaces> countedFaces(const volume::LabelTable& table, std::spa
         const std::optional<FaceKind> kind = faceKindOf(table.labels[label].className);
         if (kind && !isPartOfCounted(table, label, *kind, extent, areas))
             counted.push_back({label, *kind, areas[label]});
+    }
+    // A window has a face towards the room, too.
+    for (const FaceKind kind : {FaceKind::Window, FaceKind::Door}) {
+        const auto isOfRoom = [&](const CountedFaces& faces) {
+            return faces.kind == kind && isInRoom(table, faces.label);
+        };
+        const auto isOutside = [&](const CountedFaces& faces) {
+            return faces.kind == kind && !isInRoom(table, faces.label);
+        };
+        if (std::any_of(counted.begin(), counted.end(), isOutside)) std::erase_if(counted, isOfRoom);
     }
     return counted;
 }

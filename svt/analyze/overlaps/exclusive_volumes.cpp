@@ -236,6 +236,32 @@ private:
 
 }  // namespace
 
+volume::SemanticVolume keepLabels(const volume::SemanticVolume& volume, const std::vector<char>& isKept) {
+    volume::SemanticVolume kept;
+    kept.grid = volume.grid;
+    kept.labels.labels = volume.labels.labels;
+    auto& labels = kept.labels.labels;
+    for (std::size_t l = 0; l < labels.size(); ++l)
+        if (isKept[l] == 0) {
+            labels[l].filling = volume::Filling::None;
+            labels[l].voxels = labels[l].thinVoxels = 0;
+            labels[l].count = 0;
+            labels[l].volume = 0;
+        }
+    for (const volume::Overlap& overlap : volume.labels.overlaps) {
+        if (isKept[overlap.b] == 0) continue;
+        if (isKept[overlap.a] != 0)
+            kept.labels.overlaps.push_back(overlap);
+        else
+            labels[overlap.b].voxels += overlap.voxels;
+    }
+    kept.vectors.unit = volume.vectors.unit;
+    kept.vectors.points = volume.vectors.points;
+    for (const auto& triangle : volume.vectors.triangles)
+        if (isKept[triangle.label] != 0) kept.vectors.triangles.push_back(triangle);
+    return kept;
+}
+
 std::vector<Measure> exclusiveMeasures(const volume::SemanticVolume& volume, std::uint64_t work) {
     return ExclusiveVolumes(volume, work).run();
 }

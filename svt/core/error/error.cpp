@@ -119,6 +119,7 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(BadSheets);
         SVT_CASE(StoreyLevelDiffers);
         SVT_CASE(NetExceedsGross);
+        SVT_CASE(RoomsShareSpace);
         SVT_CASE(BadPlan);
         SVT_CASE(PlanVersion);
         SVT_CASE(BadPack);

@@ -1,6 +1,7 @@
 #include <svt/drawing/floor_areas.hpp>
 #include <svt/drawing/section_drawing.hpp>
 
+#include <svt/analyze/exclusive_volumes.hpp>
 #include <svt/core/text.hpp>
 #include <svt/drawing/areas/covered_area.hpp>
 #include <svt/drawing/drawing_tables.hpp>
@@ -127,6 +128,7 @@ public:
         findCeilings();
         SVT_DO(cutLevels());
         SVT_DO(addRooms());
+        SVT_DO(countRooms());
         addComponents();
         return std::move(areas_);
     }
@@ -245,26 +247,71 @@ private:
             SVT_TRY(area, room.isExact ? Result<double>(*roomAreas_[l]) : cutArea(room, extent));
             room.area = *area;
             room.stated = statedFloorArea(label);
-            addToLevel(room);
+            room.isZone = tables_.roomShares()[l].isZone;
+            room.isShared = tables_.roomShares()[l].isShared;
             areas_.rooms.push_back(std::move(room));
         }
         std::sort(areas_.rooms.begin(), areas_.rooms.end(), [](const RoomArea& a, const RoomArea& b) {
             return std::tie(a.level, a.number, a.name, a.label) < std::tie(b.level, b.number, b.name, b.label);
         });
+        return {};
+    }
+
+    // The sums of the levels. Rooms that share space count with their area in a section of all rooms.
+    Result<void> countRooms() {
+        std::optional<volume::SemanticVolume> solidRooms;  // made when needed
+        std::map<std::int64_t, SectionDrawing> sections;   // by millimetres
+        for (RoomArea& room : areas_.rooms) {
+            const double own = room.isZone ? 0 : tables_.roomShares()[room.label].own;
+            room.countedVolume = room.volume * own;
+            room.countedArea = room.isShared ? room.area * own : room.area;
+            if (room.isShared && !room.isZone && room.isExact) {
+                if (!solidRooms) solidRooms = keepRooms();
+                SVT_TRY(area, ownArea(room, *solidRooms, sections));
+                room.countedArea = std::min(*area, room.area);
+            }
+            addToLevel(room);
+        }
         for (LevelArea& level : areas_.levels) level.construction = level.gross - level.net;
         return {};
     }
 
+    // Rooms with a closed mesh, without zones.
+    [[nodiscard]] volume::SemanticVolume keepRooms() const {
+        std::vector<char> isKept(volume_.labels.labels.size(), 0);
+        for (const RoomArea& room : areas_.rooms) isKept[room.label] = room.isExact && !room.isZone;
+        return analyze::keepLabels(volume_, isKept);
+    }
+
+    // The area of a room in a section above its floor that cuts only rooms.
+    Result<double> ownArea(const RoomArea& room, const volume::SemanticVolume& rooms,
+                           std::map<std::int64_t, SectionDrawing>& sections) const {
+        const double height = extents_[room.label].floor + kBelowSills;
+        const std::int64_t key = std::llround(height * 1000);
+        auto known = sections.find(key);
+        if (known == sections.end()) {
+            const Vec3d up = rooms.grid.axes()[2];
+            SectionOptions options;
+            options.threads = threads_;
+            SVT_TRY(drawing, drawSection(rooms, {up, rooms.grid.origin() + up * height}, options));
+            known = sections.emplace(key, std::move(*drawing)).first;
+        }
+        for (const SectionComponent& component : known->second.components)
+            if (component.label == room.label) return component.area;
+        return 0.0;
+    }
+
     void addToLevel(const RoomArea& room) {
         LevelArea& level = areas_.levels[room.level];
+        if (room.isZone) return;
         ++level.rooms;
         level.isFloor = true;
         level.isExact = level.isExact && room.isExact;
-        level.net += room.area;
+        level.net += room.countedArea;
         (room.use == RoomUse::Use         ? level.use
          : room.use == RoomUse::Technical ? level.technical
          : room.use == RoomUse::Traffic   ? level.traffic
-                                          : level.unknown) += room.area;
+                                          : level.unknown) += room.countedArea;
     }
 
     void addComponents() {
@@ -301,6 +348,46 @@ private:
     std::vector<std::vector<std::pair<std::uint32_t, double>>> areasAt_;  // by level, label; m2
     FloorAreas areas_;
 };
+
+std::string levelName(const BuildingLevel& level, const volume::SemanticVolume& volume) {
+    if (!level.name.empty()) return fmt::format("'{}'", level.name);
+    return fmt::format("{:.2f} m", level.floor + dot(volume.grid.origin(), volume.grid.axes()[2]));
+}
+
+// The names of rooms, each once: "'Flat 1', 'Flat 2' and 3 others".
+std::string namesOf(const std::vector<const RoomArea*>& rooms) {
+    constexpr std::size_t kMostNames = 5;
+    std::vector<std::string> names;
+    for (const RoomArea* room : rooms)
+        if (std::find(names.begin(), names.end(), room->name) == names.end()) names.push_back(room->name);
+    const std::size_t others = names.size() > kMostNames ? names.size() - kMostNames : 0;
+    names.resize(names.size() - others);
+    const std::string text = fmt::format("'{}'", fmt::join(names, "', '"));
+    return others == 0 ? text : fmt::format("{} and {} others", text, others);
+}
+
+// Reports the zones of a level, and the rooms that share space, with the area that does not count.
+void reportShared(const FloorAreas& areas, std::size_t level, const std::string& name,
+                  const volume::SemanticVolume& volume, Diagnostics& log) {
+    std::vector<const RoomArea*> zones, overlapping;
+    double shared = 0;
+    for (const RoomArea& room : areas.rooms) {
+        if (room.level != level || !room.isShared) continue;
+        (room.isZone ? zones : overlapping).push_back(&room);
+        if (!room.isZone) shared += room.area - room.countedArea;
+    }
+    const auto report = [&](const std::string& text) {
+        log.add(Severity::Warning, Code::RoomsShareSpace, text, {volume.source, 0, 0, {}});
+    };
+    if (!zones.empty())
+        report(
+            fmt::format("the level {} has zones that consist mostly of other rooms: {}; they do not count in sums "
+                        "and have no stamps",
+                        name, namesOf(zones)));
+    if (!overlapping.empty())
+        report(fmt::format("the level {} has rooms that overlap smaller ones by {:.2f} m2, which count once: {}", name,
+                           shared, namesOf(overlapping)));
+}
 
 }  // namespace
 
@@ -359,15 +446,14 @@ Result<FloorAreas> measureFloorAreas(const volume::SemanticVolume& volume, const
 
 void reportAreas(const FloorAreas& areas, const std::vector<BuildingLevel>& levels,
                  const volume::SemanticVolume& volume, Diagnostics& log) {
-    const double corner = dot(volume.grid.origin(), volume.grid.axes()[2]);
     for (std::size_t n = 0; n < levels.size() && n < areas.levels.size(); ++n) {
         const LevelArea& level = areas.levels[n];
+        const std::string name = levelName(levels[n], volume);
+        reportShared(areas, n, name, volume, log);
         if (!level.netExceedsGross()) continue;
-        const std::string name = levels[n].name.empty() ? fmt::format("{:.2f} m", levels[n].floor + corner)
-                                                        : fmt::format("'{}'", levels[n].name);
         log.add(Severity::Warning, Code::NetExceedsGross,
                 fmt::format("the rooms of the level {} have {:.2f} m2, more than the {:.2f} m2 that its plan encloses; "
-                            "its area of construction is unknown; check for rooms that overlap or lie on another level",
+                            "its area of construction is unknown; check for rooms that lie on another level",
                             name, level.net, level.gross),
                 {volume.source, 0, 0, {}});
     }

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <string>
+
 namespace svt::drawing {
 namespace {
 
@@ -44,6 +47,50 @@ TEST(FloorAreas, RoomsStoreysAndComponentsOfBoxes) {
     EXPECT_EQ(areas->components[0].className, "BuildingConstructiveElement");
     EXPECT_NEAR(areas->components[0].area, 4 * 5, 1e-4);  // face-on
     EXPECT_NEAR(areas->components[0].volume, 0.3 * 4 * 5, 1e-9);
+}
+
+// A gross area that the file stores as a room, a flat of two rooms in it, and a booth in one of the rooms.
+TEST(FloorAreas, ZonesDoNotCountAndSharedFloorsCountOnce) {
+    Boxes boxes;
+    boxes.addBox("west", "BuildingConstructiveElement", {0, 0, 0}, {0.5, 8, 2.5});
+    boxes.addBox("hall", "BuildingRoom", {0.5, 0, 0}, {6.5, 8, 2.5});
+    boxes.addBox("office", "BuildingRoom", {6.5, 0, 0}, {10.5, 8, 2.5});
+    boxes.addBox("booth", "BuildingRoom", {1, 1, 0}, {3, 3, 2});
+    boxes.addBox("flat", "BuildingRoom", {0.5, 0, 0}, {10.5, 8, 2.5});
+    boxes.addBox("gross", "BuildingRoom", {0, 0, 0}, {10.5, 8, 2.5});
+    for (auto& label : boxes.volume.labels.labels) label.name = label.id;
+    const auto levels = findLevels(boxes.volume);
+    ASSERT_EQ(levels.size(), 1u);
+    const auto areas = measureFloorAreas(boxes.volume, levels);
+    ASSERT_TRUE(areas);
+    std::map<std::string, RoomArea> rooms;
+    for (const RoomArea& room : areas->rooms) rooms[room.name] = room;
+    ASSERT_EQ(rooms.size(), 5u);
+    EXPECT_TRUE(rooms["flat"].isZone);
+    EXPECT_TRUE(rooms["gross"].isZone);
+    EXPECT_NEAR(rooms["gross"].area, 84, 1e-3) << "its own area stays";
+    EXPECT_EQ(rooms["gross"].countedArea, 0);
+    EXPECT_FALSE(rooms["hall"].isZone);
+    EXPECT_TRUE(rooms["hall"].isShared);
+    EXPECT_NEAR(rooms["hall"].area, 48, 1e-3);
+    EXPECT_NEAR(rooms["hall"].countedArea, 44, 1e-3) << "by the floor, not by the volume";
+    EXPECT_NEAR(rooms["hall"].countedVolume, 48 * 2.5 - 8, 1e-3);
+    EXPECT_FALSE(rooms["booth"].isShared);
+    EXPECT_FALSE(rooms["office"].isShared);
+    EXPECT_NEAR(areas->levels[0].net, 80, 1e-3);
+    EXPECT_EQ(areas->levels[0].rooms, 3u);
+    EXPECT_NEAR(areas->levels[0].construction, 4, 1e-3);
+    EXPECT_TRUE(areas->levels[0].isExact);
+    Diagnostics log;
+    reportAreas(*areas, levels, boxes.volume, log);
+    ASSERT_EQ(log.count(Code::RoomsShareSpace), 2u);
+    const std::string zones = log.items()[0].message, overlap = log.items()[1].message;
+    EXPECT_NE(zones.find("mostly of other rooms: 'flat', 'gross';"), std::string::npos) << zones;
+    EXPECT_NE(overlap.find("by 4.00 m2, which count once: 'hall'"), std::string::npos) << overlap;
+    EXPECT_EQ(log.count(Code::NetExceedsGross), 0u);
+    // Plans omit stamps of zones.
+    for (const auto& component : boxes.cut({0, 0, 1}, {0, 0, 1.1}).components)
+        EXPECT_EQ(component.isZone, rooms[boxes.volume.labels.labels[component.label].id].isZone);
 }
 
 // A wall of three parts around an opening; the last box becomes a part of the label before it.
@@ -111,7 +158,7 @@ TEST(FloorAreas, RoofSpacesAndFoundationsAreNoFloors) {
 TEST(FloorAreas, RoomsWithMoreAreaThanTheirPlanAreReported) {
     Boxes boxes;
     boxes.addBox("hall", "BuildingRoom", {0, 0, 0}, {8, 8, 2.7});
-    boxes.addBox("the same hall", "BuildingRoom", {0, 0, 0}, {8, 8, 2.7});
+    boxes.addBox("raised hall", "BuildingRoom", {8.4, 0, 0.5}, {16.4, 8, 3.2});
     boxes.addBox("wall", "BuildingConstructiveElement", {8, 0, 0}, {8.4, 8, 2.7});
     const auto levels = findLevels(boxes.volume);
     const auto areas = measureFloorAreas(boxes.volume, levels);

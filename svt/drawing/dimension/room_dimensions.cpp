@@ -141,7 +141,8 @@ std::vector<RoomDimension> findRoomDimensions(const SectionDrawing& drawing, con
     std::vector<RoomDimension> found;
     const BorderStrips strips(drawing);
     for (const SectionComponent& component : drawing.components) {
-        if (!isRoomSpace(volume.labels.labels[component.label]) || component.polygons.empty()) continue;
+        if (!isRoomSpace(volume.labels.labels[component.label]) || component.isZone || component.polygons.empty())
+            continue;
         const SectionPolygon& largest = *std::ranges::max_element(component.polygons, {}, &SectionPolygon::area);
         const RoomBorders borders = bordersOf(strips, largest, component.label, volume);
         for (const bool isAlongU : {true, false})

@@ -5,6 +5,7 @@
 #include <svt/drawing/dimension/dimension_chains.hpp>
 #include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/exact/body_cells.hpp>
+#include <svt/drawing/room_floor_areas.hpp>
 #include <svt/drawing/section/door_swings.hpp>
 #include <svt/drawing/section/draw_labels.hpp>
 #include <svt/drawing/section/exact_section.hpp>
@@ -256,11 +257,14 @@ Result<std::optional<SectionDrawing>> drawMeshes(const volume::SemanticVolume& v
     return std::optional<SectionDrawing>(maker.make(borders));
 }
 
-// Plans: the floor areas of rooms, so that stamps and schedules have one number.
+// Plans: the floor areas of rooms, so that stamps and schedules have one number, and which rooms are zones.
 void addFloorAreas(SectionDrawing& drawing, const volume::SemanticVolume& volume, const DrawingTables& tables) {
     constexpr double kUpright = 1 - 1e-9;
     if (std::abs(dot(drawing.plane.normal, volume.grid.axes()[2])) < kUpright) return;
-    for (SectionComponent& component : drawing.components) component.floorArea = tables.roomAreas()[component.label];
+    for (SectionComponent& component : drawing.components) {
+        component.floorArea = tables.roomAreas()[component.label];
+        component.isZone = tables.roomShares()[component.label].isZone;
+    }
 }
 
 // Adds floor areas, lines beyond the cut, doors and dimensions.

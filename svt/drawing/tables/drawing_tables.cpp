@@ -219,6 +219,12 @@ const std::vector<std::optional<double>>& DrawingTables::roomAreas() const {
     return *roomAreas_;
 }
 
+const std::vector<RoomShare>& DrawingTables::roomShares() const {
+    const std::lock_guard lock(mutex_);
+    if (!roomShares_) roomShares_ = std::make_shared<const std::vector<RoomShare>>(drawing::roomShares(volume_));
+    return *roomShares_;
+}
+
 const std::vector<LabelFacts>& DrawingTables::facts() const {
     const std::lock_guard lock(mutex_);
     if (!facts_) facts_ = factsOf(volume_.labels);

@@ -23,33 +23,6 @@ std::vector<MeshDigest> digestsOf(const volume::SemanticVolume& volume) {
     return digests;
 }
 
-// The labels of the objects only, as if the volume had nothing else. Voxels that others took are theirs again.
-volume::SemanticVolume onlyObjects(const volume::SemanticVolume& volume, const std::vector<char>& isKept) {
-    volume::SemanticVolume kept;
-    kept.grid = volume.grid;
-    kept.labels.labels = volume.labels.labels;
-    auto& labels = kept.labels.labels;
-    for (std::size_t l = 0; l < labels.size(); ++l)
-        if (isKept[l] == 0) {
-            labels[l].filling = volume::Filling::None;
-            labels[l].voxels = labels[l].thinVoxels = 0;
-            labels[l].count = 0;
-            labels[l].volume = 0;
-        }
-    for (const volume::Overlap& overlap : volume.labels.overlaps) {
-        if (isKept[overlap.b] == 0) continue;
-        if (isKept[overlap.a] != 0)
-            kept.labels.overlaps.push_back(overlap);
-        else
-            labels[overlap.b].voxels += overlap.voxels;
-    }
-    kept.vectors.unit = volume.vectors.unit;
-    kept.vectors.points = volume.vectors.points;
-    for (const auto& triangle : volume.vectors.triangles)
-        if (isKept[triangle.label] != 0) kept.vectors.triangles.push_back(triangle);
-    return kept;
-}
-
 }  // namespace
 
 std::vector<CountedVolume> countedVolumes(const volume::SemanticVolume& volume,
@@ -65,7 +38,7 @@ std::vector<CountedVolume> countedVolumes(const volume::SemanticVolume& volume,
             isRepeated[part] = isSolid && !known.insert(digests[part]).second;
             isKept[part] = isRepeated[part] == 0;
         }
-    const std::vector<analyze::Measure> own = analyze::exclusiveMeasures(onlyObjects(volume, isKept));
+    const std::vector<analyze::Measure> own = analyze::exclusiveMeasures(analyze::keepLabels(volume, isKept));
     std::vector<CountedVolume> counted;
     counted.reserve(objects.size());
     for (const ObjectQuantities& object : objects) {

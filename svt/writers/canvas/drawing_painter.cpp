@@ -119,7 +119,7 @@ private:
 
     void addNames() {
         for (const drawing::SectionComponent& component : drawing_.components) {
-            if (!style_.isSpace(component.label) || component.polygons.empty()) continue;
+            if (!style_.isSpace(component.label) || component.isZone || component.polygons.empty()) continue;
             const std::string name = shortened(shownName(volume_.labels.labels[component.label]), 2.5, 40);
             std::vector<std::string> lines{name};
             if (isPlan(drawing_, volume_.grid)) lines.push_back(fmt::format("{:.2f} m\u00B2", component.stampArea()));

@@ -263,6 +263,7 @@ private:
     }
 
     void addName(const drawing::SectionComponent& component) {
+        if (component.isZone) return;
         const std::string& shown = shownName(labelOf(component.label));
         const auto& largest = *std::ranges::max_element(component.polygons, {}, &drawing::SectionPolygon::area);
         const drawing::TextPlace place = drawing::findTextPlace(largest);

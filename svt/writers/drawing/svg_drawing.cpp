@@ -246,7 +246,7 @@ private:
     void addNames() {
         svg_ += layer("names", "Names");
         for (const SectionComponent& component : drawing_.components) {
-            if (!style_.isSpace(component.label) || component.polygons.empty()) continue;
+            if (!style_.isSpace(component.label) || component.isZone || component.polygons.empty()) continue;
             const std::string& name = shownName(labelOf(component.label));
             const std::string area =
                 isPlan(drawing_, volume_.grid) ? fmt::format("{:.2f} m\u00B2", component.stampArea()) : std::string();

@@ -122,8 +122,8 @@ private:
         double sum = 0;
         for (const drawing::RoomArea& room : areas_.rooms) {
             if (!std::binary_search(extent.begin(), extent.end(), room.label)) continue;
-            sum += room.area;
-            table.rows.push_back({nameOf(room.label), fmt::format("{:.2f}", room.area),
+            sum += room.countedArea;
+            table.rows.push_back({nameOf(room.label) + (room.isZone ? " (zone)" : ""), fmt::format("{:.2f}", room.area),
                                   fmt::format("{:.2f}", room.height), fmt::format("{:.2f}", room.volume)});
         }
         if (table.rows.size() > 1) table.rows.push_back({"sum", fmt::format("{:.2f}", sum), "", ""});

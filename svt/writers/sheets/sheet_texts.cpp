@@ -53,6 +53,7 @@ constexpr Term<SheetWord> kWords[] = {
     {W::Room, "Room", "Raum"},
     {W::Storey, "Storey", "Geschoss"},
     {W::Use, "Use", "Nutzung"},
+    {W::Zone, "zone", "Zone"},
     {W::Area, "Area m\u00B2", "Fläche m\u00B2"},
     {W::Height, "Height m", "Höhe m"},
     {W::Volume, "Volume m\u00B3", "Volumen m\u00B3"},
@@ -236,10 +237,10 @@ std::vector<SheetTable> makeAreaTables(const drawing::FloorAreas& areas,
         for (const drawing::RoomArea& room : roomsInOrder(areas)) {
             rooms.rows.push_back({roomNumber(room), roomName(room, labels, language),
                                   levelName(levels[room.level], datum, language),
-                                  std::string(drawing::roomUseName(room.use)), measured(room.area), number(room.height),
-                                  measured(room.volume)});
-            area += room.area;
-            volume += room.volume;
+                                  room.isZone ? word(W::Zone) : std::string(drawing::roomUseName(room.use)),
+                                  measured(room.area), number(room.height), measured(room.volume)});
+            area += room.countedArea;
+            volume += room.countedVolume;
         }
         rooms.rows.push_back({"", word(W::Total), "", "", number(area), "", number(volume)});
         tables.push_back(std::move(rooms));

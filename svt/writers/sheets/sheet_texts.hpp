@@ -48,6 +48,7 @@ enum class SheetWord : std::uint8_t {
     Room,
     Storey,
     Use,
+    Zone,  ///< a room that consists of other rooms
     Area,
     Height,
     Volume,

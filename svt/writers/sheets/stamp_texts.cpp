@@ -74,7 +74,7 @@ std::vector<RoomStamp> roomStamps(const ViewContext& context) {
     const bool isFloorPlan = isPlan(context.view.drawing, context.volume.grid);
     for (const drawing::SectionComponent& component : context.view.drawing.components) {
         const volume::Label& label = context.volume.labels.labels[component.label];
-        if (!model::isSpace(label.className) || component.polygons.empty()) continue;
+        if (!model::isSpace(label.className) || component.isZone || component.polygons.empty()) continue;
         const std::string* number = textValue(label, "number");
         // The id of a room without a name says nothing to a reader.
         const std::string name = label.name.empty() ? std::string(sheetWord(SheetWord::Room, language)) : label.name;
