@@ -18,6 +18,9 @@ namespace svt::compare {
                                                                   const volume::SemanticVolume& is,
                                                                   const Comparison& comparison);
 
+/// The colour of an object with this change in a difference volume, sRGB, 0..1.
+[[nodiscard]] Vec3f colorOfChange(Change change) noexcept;
+
 /// The volume, moved in world space. The voxels move with it, so their samples coincide with those of another volume
 /// only if the vector is a multiple of the spacing.
 /// \param vector  metres

@@ -1,5 +1,7 @@
 #include <apps/cli/city/city_input.hpp>
+#include <apps/cli/diff/comparison_page.hpp>
 #include <apps/cli/diff/comparison_reports.hpp>
+#include <apps/cli/diff/comparison_topics.hpp>
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/load_volume.hpp>
 #include <apps/cli/options/shared_options.hpp>
@@ -14,6 +16,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
 #include <utility>
 
 namespace svt::cli {
@@ -57,21 +63,22 @@ Result<States> loadStates(const DiffArguments& arguments, const Progress* progre
     return States{std::move(*one), std::move(*other)};
 }
 
-// Moves the new volume to the old one. The offset is reported, so that nobody takes a shifted model for a changed one, or
-// the reverse. A model is built again, so that its samples coincide with those of the old one after the move.
-Result<void> align(const DiffArguments& arguments, const volume::SemanticVolume& was, const Progress* progress,
-                   volume::SemanticVolume& is) {
-    if (arguments.align == Align::None) return {};
+// Moves the new volume to the old one and returns the vector. The vector is reported, so that nobody takes a shifted
+// model for a changed one, or the reverse. A model is built again, so that its samples coincide with those of the old one
+// after the move.
+Result<Vec3d> align(const DiffArguments& arguments, const volume::SemanticVolume& was, const Progress* progress,
+                    volume::SemanticVolume& is) {
+    if (arguments.align == Align::None) return Vec3d{};
     const auto offset = compare::estimateTranslation(was, is, arguments.options.tolerance);
     if (!offset) {
         note(
             "no common translation is found: fewer than half of the objects with one shape agree; the models stay in "
             "their places");
-        return {};
+        return Vec3d{};
     }
     if (length(*offset) <= arguments.options.tolerance) {
         note("the models are aligned; no translation is applied");
-        return {};
+        return Vec3d{};
     }
     const volume::Grid& grid = was.grid;
     SVT_TRY(shifted, volume::Grid::fromParts(grid.dimension(), grid.spacing(), grid.origin() + *offset, grid.axes()));
@@ -83,7 +90,7 @@ Result<void> align(const DiffArguments& arguments, const volume::SemanticVolume&
     is = std::move(*moved);
     note(fmt::format("the new model is moved by {:.4f}, {:.4f}, {:.4f} m for the comparison", -offset->x, -offset->y,
                      -offset->z));
-    return {};
+    return -*offset;
 }
 
 Box3d boxOf(const volume::Grid& grid) {
@@ -111,13 +118,66 @@ void printNotes(const Compared& compared) {
         note("some pairs of objects have too many faces for exact volumes; their volumes come from voxels");
 }
 
-Result<void> writeOutput(const std::filesystem::path& output, const Compared& compared) {
+// Both states as one volume, and its pictures, made for the first output that needs them.
+class Difference {
+public:
+    Difference(const Compared& compared, int threads) : compared_(compared), threads_(threads) {}
+
+    [[nodiscard]] const Result<volume::SemanticVolume>& volume() {
+        if (!volume_) volume_ = compare::makeDifferenceVolume(compared_.was, compared_.is, compared_.comparison);
+        return *volume_;
+    }
+    // Null: there is no volume, for the reason that reason() states.
+    [[nodiscard]] ChangePictures* pictures() {
+        if (!pictures_ && volume()) pictures_ = std::make_unique<ChangePictures>(*volume(), threads_);
+        return pictures_.get();
+    }
+    [[nodiscard]] std::string reason() { return volume() ? std::string() : volume().error().message(); }
+
+private:
+    const Compared& compared_;
+    int threads_;
+    std::optional<Result<volume::SemanticVolume>> volume_;
+    std::unique_ptr<ChangePictures> pictures_;
+};
+
+// The day in UTC. Without the time of day, equal comparisons of one day give equal files.
+std::string today() {
+    const std::chrono::year_month_day day(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
+    return fmt::format("{:04}-{:02}-{:02}T00:00:00Z", int(day.year()), unsigned(day.month()), unsigned(day.day()));
+}
+
+Result<void> writeTopics(const std::filesystem::path& output, const Compared& compared, Difference& difference) {
+    constexpr std::size_t kMostTopics = 100;
+    std::vector<std::uint32_t> rows = rowsByVolume(compared.comparison);
+    if (rows.size() > kMostTopics) {
+        note(fmt::format("{} has the {} largest of {} changes; -o changes.csv has all", shownText(output.string()),
+                         kMostTopics, rows.size()));
+        rows.resize(kMostTopics);
+    }
+    ChangePictures* pictures = rows.empty() ? nullptr : difference.pictures();
+    if (!rows.empty() && pictures == nullptr)
+        note(fmt::format("{} has no pictures: {}", shownText(output.string()), difference.reason()));
+    SVT_TRY(topics, changeTopics(compared, rows, pictures));
+    SVT_TRY(bytes, writers::makeBcf(*topics, "svt diff", today()));
+    SVT_DO(writeFileAtomically(output, *bytes));
+    return {};
+}
+
+Result<void> writeOutput(const std::filesystem::path& output, const Compared& compared, Difference& difference) {
     const std::string ending = endingOf(output);
     if (ending == ".svt") {
-        SVT_TRY(volume, compare::makeDifferenceVolume(compared.was, compared.is, compared.comparison));
+        const auto& volume = difference.volume();
+        if (!volume) return volume.error();
         SVT_DO(volume::writeSvt(*volume, output));
     } else if (ending == ".csv") {
         SVT_DO(writeFileAtomically(output, writers::makeCsv(comparisonTable(compared, true))));
+    } else if (ending == ".html") {
+        ChangePictures* pictures = compared.comparison.isDifferent() ? difference.pictures() : nullptr;
+        SVT_TRY(page, comparisonPage(compared, pictures, pictures == nullptr ? difference.reason() : std::string()));
+        SVT_DO(writeFileAtomically(output, *page));
+    } else if (ending == ".bcf") {
+        SVT_DO(writeTopics(output, compared, difference));
     } else {
         SVT_DO(writeFileAtomically(
             output, comparisonJson(compared).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"));
@@ -133,14 +193,16 @@ Result<int> runDiff(const DiffArguments& arguments) {
     const TerminalProgress progress;
     SVT_TRY(states, loadStates(arguments, progress.get()));
     volume::SemanticVolume &was = states->was, &is = states->is;
-    SVT_DO(align(arguments, was, progress.get(), is));
+    SVT_TRY(shift, align(arguments, was, progress.get(), is));
     compare::CompareOptions options = arguments.options;
     options.threads = arguments.build.threads;
     options.progress = progress.get();
     SVT_TRY(comparison, compare::compareVolumes(was, is, options));
-    const Compared compared{was, is, *comparison};
+    const Compared compared{
+        was, is, *comparison, shownText(arguments.was.string()), shownText(arguments.is.string()), *shift, options};
     printNotes(compared);
-    for (const std::filesystem::path& output : arguments.outputs) SVT_DO(writeOutput(output, compared));
+    Difference difference(compared, arguments.build.threads);
+    for (const std::filesystem::path& output : arguments.outputs) SVT_DO(writeOutput(output, compared, difference));
     TerminalProgress::hide();
     if (arguments.json)
         print(comparisonJson(compared));
@@ -148,7 +210,7 @@ Result<int> runDiff(const DiffArguments& arguments) {
         print(comparisonTable(compared, true), TableFormat::Csv);
     else if (const Table table = comparisonTable(compared, arguments.all, 3); !table.rows.empty())
         print(table, TableFormat::Text);
-    if (!arguments.json && !arguments.csv) summarize(comparisonSummary(compared));
+    if (!arguments.json && !arguments.csv) summarize(comparisonSummary(*comparison));
     return comparison->isDifferent() ? kDifferent : kDone;
 }
 
@@ -162,9 +224,9 @@ Members<DiffArguments> membersOf(const DiffArguments*) noexcept {
                          {.value = "NEW", .isRequired = true, .file = FileUse::ModelOrVolume}),
         member<&All::outputs>(
             "-o,--output",
-            "file to write: all rows (.csv, .json), or both states as a volume whose colours show the "
-            "changes (.svt)",
-            {.value = "FILE", .file = FileUse::Output, .formats = "csv|json|svt"}),
+            "file to write: all rows (.csv, .json), a page with pictures (.html), issues for BIM programs (.bcf), or "
+            "both states as a volume whose colours show the changes (.svt)",
+            {.value = "FILE", .file = FileUse::Output, .formats = "csv|json|html|bcf|svt"}),
         member<&All::options, &CompareOptions::match>(
             "--match", "how objects are matched: by space and ids, by space only, or by ids only",
             {.group = "Comparison"}),

@@ -1,19 +1,12 @@
 #pragma once
 /// \file
-/// A comparison of two volumes as a table, as JSON, and in words.
+/// A comparison of two volumes as a table and as JSON.
 
+#include <apps/cli/diff/compared.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/table.hpp>
 
-#include <svt/compare/comparison.hpp>
-
 namespace svt::cli {
-
-/// Two volumes and their comparison.
-struct Compared {
-    const volume::SemanticVolume &was, &is;
-    const compare::Comparison& comparison;
-};
 
 /// One row per object and per group.
 /// \param hasAll          false: only rows that differ
@@ -22,8 +15,5 @@ struct Compared {
 
 /// rows and summary, see docs/user/json.md.
 [[nodiscard]] Json comparisonJson(const Compared& compared);
-
-/// "3 changed, 1 removed, 41 same; 2 with other properties"
-[[nodiscard]] std::string comparisonSummary(const Compared& compared);
 
 }  // namespace svt::cli

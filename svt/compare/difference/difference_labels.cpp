@@ -1,5 +1,6 @@
 #include <svt/compare/difference/difference_labels.hpp>
 
+#include <svt/compare/difference_volume.hpp>
 #include <svt/model/classes.hpp>
 
 #include <string>
@@ -37,6 +38,8 @@ std::vector<char> spacesOf(const volume::SemanticVolume& volume) {
 }
 
 }  // namespace
+
+Vec3f colorOfChange(Change change) noexcept { return lookOf(change, "").color; }
 
 DifferenceLabels::DifferenceLabels(const volume::SemanticVolume& was, const volume::SemanticVolume& is,
                                    const Comparison& comparison)

@@ -1,0 +1,106 @@
+#include <apps/cli/diff/compared.hpp>
+
+#include <svt/core/names.hpp>
+#include <svt/drawing/storey_floors.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace svt::cli {
+
+using compare::Change, compare::ComparisonRow;
+
+StateFeatures::StateFeatures(const volume::SemanticVolume& volume)
+    : labels_(volume.labels.labels), storeys_(drawing::storeysOfLabels(volume.labels)) {}
+
+std::string StateFeatures::storeyOf(std::uint32_t label) const {
+    const std::uint32_t storey = storeys_[label];
+    if (storey == volume::kNoLabel) return {};
+    return labels_[storey].name.empty() ? labels_[storey].id : labels_[storey].name;
+}
+
+std::vector<std::string> StateFeatures::ids(const std::vector<std::uint32_t>& labels) const {
+    std::vector<std::string> ids;
+    for (const std::uint32_t label : labels) ids.push_back(labels_[label].id);
+    return ids;
+}
+
+RowSubject subjectOf(const ComparisonRow& row, const StateFeatures& was, const StateFeatures& is) {
+    return row.is.empty() ? RowSubject{&was, row.was.front()} : RowSubject{&is, row.is.front()};
+}
+
+std::string otherProperties(const ComparisonRow& row, std::size_t most) {
+    std::vector<std::string_view> names;
+    if (row.hasOtherClass) names.emplace_back("class");
+    if (row.hasOtherName) names.emplace_back("name");
+    if (row.hasOtherStorey) names.emplace_back("storey");
+    for (const compare::AttributeChange& attribute : row.attributes) names.emplace_back(attribute.name);
+    std::string text =
+        fmt::format("{}", fmt::join(names.begin(), names.begin() + std::ptrdiff_t(std::min(most, names.size())), ", "));
+    if (names.size() > most) text += fmt::format(", and {} more", names.size() - most);
+    return text;
+}
+
+std::optional<double> changedVolume(const ComparisonRow& row) {
+    if (!row.added && !row.removed) return std::nullopt;
+    return row.added.value_or(0) + row.removed.value_or(0);
+}
+
+std::vector<std::uint32_t> rowsByVolume(const compare::Comparison& comparison) {
+    std::vector<std::uint32_t> rows;
+    for (std::uint32_t r = 0; r < comparison.rows.size(); ++r)
+        if (comparison.rows[r].isDifferent()) rows.push_back(r);
+    // Rows of storeys and groups, and rows without another shape, have no changed volume.
+    const auto keyOf = [&](std::uint32_t r) {
+        const ComparisonRow& row = comparison.rows[r];
+        const auto volume = changedVolume(row);
+        const bool hasSpace = row.hasGeometry && row.change != Change::Same && row.change != Change::Reassigned;
+        const int rank = !hasSpace ? 2 : !volume ? 1 : 0;
+        return std::pair(rank, rank == 0 ? -*volume : -row.distance.value_or(0));
+    };
+    std::stable_sort(rows.begin(), rows.end(), [&](std::uint32_t a, std::uint32_t b) { return keyOf(a) < keyOf(b); });
+    return rows;
+}
+
+std::vector<ClassSums> sumsByClass(const Compared& compared, std::span<const std::uint32_t> rows) {
+    std::vector<ClassSums> sums;
+    for (const std::uint32_t r : rows) {
+        const ComparisonRow& row = compared.comparison.rows[r];
+        if (!row.hasGeometry || row.change == Change::Same) continue;
+        const volume::Label& label =
+            row.is.empty() ? compared.was.labels.labels[row.was.front()] : compared.is.labels.labels[row.is.front()];
+        auto at =
+            std::find_if(sums.begin(), sums.end(), [&](const ClassSums& s) { return s.className == label.className; });
+        if (at == sums.end()) at = sums.insert(sums.end(), ClassSums{label.className});
+        ++at->objects;
+        if (!changedVolume(row)) {
+            ++at->unknown;
+            continue;
+        }
+        const bool isFirst = !at->added && !at->removed;
+        if (row.added) at->added = at->added.value_or(0) + *row.added;
+        if (row.removed) at->removed = at->removed.value_or(0) + *row.removed;
+        if (isFirst)
+            at->bound = row.bound;
+        else if (at->bound)
+            at->bound = row.bound ? std::optional(*at->bound + *row.bound) : std::nullopt;
+    }
+    return sums;
+}
+
+double withoutRounding(double value) noexcept { return std::round(value * 1e7) / 1e7; }
+
+std::string comparisonSummary(const compare::Comparison& comparison) {
+    std::string text;
+    for (std::size_t change = compare::kChangeCount; change-- > 0;)
+        if (const std::size_t count = comparison.counts[change]; count > 0)
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, nameOf(static_cast<Change>(change)));
+    if (text.empty()) text = "no objects";
+    if (comparison.otherProperties > 0) text += fmt::format("; {} with other properties", comparison.otherProperties);
+    return text;
+}
+
+}  // namespace svt::cli
