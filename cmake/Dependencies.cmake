@@ -15,6 +15,7 @@ endforeach()
 find_path(CAIRO_INCLUDE_DIR cairo/cairo-pdf.h REQUIRED)
 find_path(FONTCONFIG_INCLUDE_DIR fontconfig/fontconfig.h REQUIRED)  # of the fonts in PDF
 set(SVT_CAIRO_LIBRARY libcairo.so.2)
+find_path(XLSXWRITER_INCLUDE_DIR xlsxwriter.h REQUIRED)  # loaded for tables as XLSX
 
 find_file(DEJAVU_SANS DejaVuSans.ttf PATHS /usr/share/fonts/truetype/dejavu /usr/share/fonts/TTF /usr/share/fonts/dejavu
   /usr/share/fonts/dejavu-sans-fonts REQUIRED)

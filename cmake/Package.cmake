@@ -24,8 +24,8 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 # PROJ is loaded with the first use, so that its package is not found by what is linked: libproj.so.25 is in libproj25.
 string(REPLACE ".so." "" SVT_PROJ_PACKAGE ${SVT_PROJ_LIBRARY})
 set(CPACK_DEBIAN_COMMAND_PACKAGE_DEPENDS ${SVT_PROJ_PACKAGE})
-# OpenGL is optional, and so are cairo, qpdf and FriBidi, for PDF, its layers and its Arabic and Hebrew text, SQLite, for GeoPackage, curl, for addresses, ffmpeg, for films, and a browser that `svt view` may open.
-set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, libcairo2, libqpdf29, libfribidi0, libsqlite3-0, libcurl4 | libcurl3-gnutls, xdg-utils")
+# OpenGL is optional, and so are cairo, qpdf and FriBidi, for PDF, its layers and its Arabic and Hebrew text, SQLite, for GeoPackage, libxlsxwriter, for XLSX, curl, for addresses, ffmpeg, for films, and a browser that `svt view` may open.
+set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, libcairo2, libqpdf29, libfribidi0, libsqlite3-0, libxlsxwriter4, libcurl4 | libcurl3-gnutls, xdg-utils")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS ffmpeg)
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION "Turns a building model (CityGML, CityJSON, IFC, IndoorGML) into a volume in
 which every voxel is labelled with its building component. Draws, measures,

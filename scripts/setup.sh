@@ -16,7 +16,7 @@ packages=(
   build-essential cmake ninja-build pkg-config
   libpugixml-dev libsimdjson-dev nlohmann-json3-dev libglu1-mesa-dev libtbb-dev
   libfmt-dev libcli11-dev zlib1g-dev libzstd-dev libpng-dev libjpeg62-turbo-dev libhwy-dev libpolyclipping-dev
-  libproj-dev proj-bin libfreetype-dev fonts-dejavu-core libegl-dev libgles-dev libegl-mesa0 libgl1-mesa-dri libcairo2-dev libqpdf29 qpdf libfribidi0
+  libproj-dev proj-bin libfreetype-dev fonts-dejavu-core libegl-dev libgles-dev libegl-mesa0 libgl1-mesa-dri libcairo2-dev libqpdf29 qpdf libfribidi0 libxlsxwriter-dev
   clang-format shellcheck flake8 black mypy libgtest-dev libxml2-utils librsvg2-bin poppler-utils gdal-bin unzip file python3 ccache
 )
 peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth valgrind)

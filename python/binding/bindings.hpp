@@ -16,10 +16,11 @@ struct ModelObject {
     Diagnostics findings;
 };
 
-void bindModels(py::module_& module);    ///< reading and building
-void bindVolumes(py::module_& module);   ///< volumes and labels, files
-void bindSamples(py::module_& module);   ///< dense arrays, points, rays, contacts
-void bindSections(py::module_& module);  ///< section drawings
-void bindPictures(py::module_& module);  ///< frames, PNG
+void bindModels(py::module_& module);      ///< reading and building
+void bindVolumes(py::module_& module);     ///< volumes and labels, files
+void bindSamples(py::module_& module);     ///< dense arrays, points, rays, contacts
+void bindSections(py::module_& module);    ///< section drawings
+void bindQuantities(py::module_& module);  ///< quantities of objects
+void bindPictures(py::module_& module);    ///< frames, PNG
 
 }  // namespace svt::python

@@ -14,11 +14,13 @@ work releases the interpreter for other threads, and Ctrl-C ends it. Errors are 
 from . import _native
 from ._native import Feature, Label
 from .city import City
+from .comparison import Comparison, diff
 from .errors import Error, Finding, Place
 from .labels import Labels
 from .model import Model, read, sample
 from .page import Page
 from .picture import Frame, read_png, write_png
+from .quantities import quantities
 from .section import Axes, Component, Polygon, Section
 from .viewer import View
 from .volume import Runs, Volume, build, open
@@ -27,6 +29,7 @@ __version__: str = _native.version
 __all__ = [
     "Axes",
     "City",
+    "Comparison",
     "Component",
     "Error",
     "Feature",
@@ -43,7 +46,9 @@ __all__ = [
     "View",
     "Volume",
     "build",
+    "diff",
     "open",
+    "quantities",
     "read",
     "read_png",
     "sample",

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 import svt
-from common import COMMAND, house, house_svt, needs, needs_command, path
+from common import COMMAND, command, house, house_svt, needs, needs_command, path
 
 
 def bodies_and_surfaces():
@@ -45,6 +45,33 @@ class Tables(unittest.TestCase):
         self.assertEqual((row["voxels"], row["volume"]), (kitchen.voxels, kitchen.volume))
         self.assertEqual((row["area"], row["outside_area"]), (kitchen.area, kitchen.outside_area))
         self.assertEqual((row["total_volume"], row["total_area"]), (kitchen.total_volume, kitchen.total_area))
+
+    @needs("pandas")
+    @needs_command
+    def test_quantities_are_those_of_the_command(self):
+        table = svt.quantities(house_svt(), exterior=True)
+        report = json.loads(command("quantities", house_svt(), "--exterior", "--json", "-q"))
+        rows = {row["id"]: row for row in report["rows"]}
+        self.assertEqual(sorted(table["id"]), sorted(rows))
+        names = {"net_volume": "netVolume", "gross_volume": "grossVolume", "opening_area": "openingArea"}
+        unknown = 0
+        for _, row in table.iterrows():
+            expected = rows[row["id"]]
+            for name, key in names.items():
+                if expected[key] is None:
+                    self.assertTrue(math.isnan(row[name]))
+                    unknown += 1
+                else:
+                    self.assertAlmostEqual(row[name], expected[key], places=6)
+            self.assertEqual(row["trust"], expected["trust"])
+        self.assertGreater(unknown, 0)
+        self.assertAlmostEqual(table["exterior_top"].sum(), report["total"]["exterior"]["top"], places=4)
+        walls = svt.quantities(house(), "class=BuildingConstructiveElement")
+        self.assertEqual(set(walls["class_name"]), {"BuildingConstructiveElement"})
+        with self.assertRaises(TypeError):
+            svt.quantities(house(), spacing=0.1)
+        with self.assertRaises(svt.Error):
+            svt.quantities(house(), "class=")
 
     @needs("pandas")
     def test_faces_are_those_of_the_model(self):

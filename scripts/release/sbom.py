@@ -45,6 +45,7 @@ LIBRARIES = {
     "cairo": Library("LGPL-2.1-only OR MPL-1.1", "loaded"),
     "curl": Library("curl", "loaded"),
     "fribidi": Library("LGPL-2.1-or-later", "loaded"),
+    "libxlsxwriter": Library("BSD-2-Clause", "loaded"),
     "proj": Library("MIT", "loaded"),
     "qpdf": Library("Apache-2.0", "loaded"),
     "sqlite3": Library("blessing", "loaded"),

@@ -74,6 +74,11 @@ struct ObjectQuantities {
 [[nodiscard]] std::vector<std::uint32_t> objectsOf(const volume::SemanticVolume& volume,
                                                    std::span<const std::uint32_t> selected);
 
+/// The objects that are measured without a selection: all components; without any, all other bodies; without any, all
+/// objects with geometry.
+/// \return labels, ascending. Cost: that of objectsOf()
+[[nodiscard]] std::vector<std::uint32_t> defaultObjects(const volume::SemanticVolume& volume);
+
 /// Whether an object is a component: neither a space nor a building as a whole, nor terrain, nor a face of another object.
 [[nodiscard]] bool isComponent(const volume::Label& label);
 

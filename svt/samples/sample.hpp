@@ -52,8 +52,10 @@ struct SampleOptions {
     Vec3d origin{500000, 5400000, 100};  ///< world position of the plan's south-west corner on the ground floor before
                                          ///< the rotation, EPSG:25832, metres, rounded to mm; each within +-1e7
     std::optional<std::uint64_t> change{};  ///< house only: a seed of edits, see describeChanges()
-    bool thematic = false;  ///< CityGML 2.0 only: the classical LoD4 model, with boundary surfaces, outer hull and
-                            ///< rooms but without solids for walls, slabs, beams and roof members
+    bool thematic = false;      ///< CityGML 2.0 only: the classical LoD4 model, with boundary surfaces, outer hull and
+                                ///< rooms but without solids for walls, slabs, beams and roof members
+    bool bakeOpenings = false;  ///< IFC only: walls, slabs and roofs with openings are faceted bodies with holes,
+                                ///< without IfcOpeningElement and the relations of openings
 };
 
 /// All p with dot(normal, p) <= offset; normal is a unit vector. World space, metres.

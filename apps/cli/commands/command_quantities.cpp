@@ -6,11 +6,14 @@
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
+#include <apps/cli/quantities/quantity_book.hpp>
+#include <apps/cli/quantities/quantity_settings.hpp>
 #include <apps/cli/quantities/take_off.hpp>
 
 #include <svt/analyze/selection.hpp>
 #include <svt/core/file.hpp>
 #include <svt/model/classes.hpp>
+#include <svt/readers/ifc_quantities.hpp>
 
 #include <fmt/format.h>
 
@@ -25,11 +28,15 @@ namespace {
 using quantities::TouchingArea;
 using Selection = std::vector<std::uint32_t>;  // labels, ascending
 
+constexpr const char* kNoMeshes =
+    "the volume has no meshes, so areas, lengths and openings are unknown; build it with --vectors meshes";
+
 struct QuantitiesArguments {
     std::filesystem::path input;
     std::string where, by, formwork;
     std::vector<std::string> between;
-    std::filesystem::path output;
+    std::filesystem::path output, settingsFile;
+    QuantitySettings settings;  // of settingsFile
     bool exterior = false, stated = false;
     pipeline::BuildOptions build;
     bool json = false, csv = false;
@@ -41,18 +48,10 @@ Result<Selection> findObjects(const volume::SemanticVolume& volume, const std::s
         SVT_TRY(selected, analyze::selectLabels(volume, query));
         return quantities::objectsOf(volume, *selected);
     }
-    Selection all(volume.labels.labels.size());
-    std::iota(all.begin(), all.end(), 0U);
-    const Selection objects = quantities::objectsOf(volume, all);
-    Selection components;
-    for (const std::uint32_t object : objects)
-        if (quantities::isComponent(volume.labels.labels[object])) components.push_back(object);
-    if (!components.empty() || objects.empty()) return components;
-    note("the model has no walls, slabs or other components; the rows are its buildings, rooms and other objects");
-    Selection bodies;
-    for (const std::uint32_t object : objects)
-        if (!quantities::isBoundarySheet(volume.labels.labels[object])) bodies.push_back(object);
-    return bodies.empty() ? objects : bodies;
+    Selection objects = quantities::defaultObjects(volume);
+    if (!objects.empty() && !quantities::isComponent(volume.labels.labels[objects.front()]))
+        note("the model has no walls, slabs or other components; the rows are its buildings, rooms and other objects");
+    return objects;
 }
 
 // 1 for each label that an object is measured from.
@@ -125,16 +124,78 @@ void addTexts(const QuantitiesArguments& arguments, TakeOff& takeOff) {
     }
 }
 
+BookAbout bookAbout(const volume::SemanticVolume& volume, const QuantitiesArguments& arguments) {
+    BookAbout about{arguments.input.string(), volume.grid.spacing(), {}, {}};
+    if (volume.vectors.triangles.empty()) about.notes.emplace_back(kNoMeshes);
+    return about;
+}
+
+// The input with the measured quantities of its elements.
+Result<std::string> copyOfIfc(const QuantitiesArguments& arguments, const TakeOff& takeOff) {
+    SVT_TRY(bytes, FileBytes::read(arguments.input));
+    std::vector<readers::IfcElementQuantities> elements;
+    std::size_t uncertain = 0;
+    for (const quantities::ObjectQuantities& object : takeOff.objects) {
+        auto& element = elements.emplace_back();
+        element.globalId = takeOff.volume.labels.labels[object.label].id;
+        // A quantity in IFC states no bound.
+        const bool isCertain = object.trust == quantities::Trust::Exact || object.trust == quantities::Trust::Tight;
+        uncertain += object.netVolume && !isCertain;
+        for (const StatedFigure& figure : statedFigures(object))
+            if (isCertain || !figure.name.ends_with("Volume"))
+                element.quantities.push_back({figure.name, figure.value});
+    }
+    SVT_TRY(copy, readers::addIfcQuantities(bytes->text(), arguments.input.string(), elements));
+    if (copy->elements == 0)
+        return Error(Code::BadArgument,
+                     "no object gets quantities: none is a wall, slab, beam or the like that the file has under this "
+                     "GlobalId and without the set; --where selects objects");
+    if (uncertain > 0)
+        note(fmt::format("the volumes of {} objects are not in the file: their meshes are not closed", uncertain));
+    if (copy->keptSets > 0)
+        note(fmt::format("{} objects keep the quantities of the file, which has their set", copy->keptSets));
+    if (copy->otherTypes > 0)
+        note(fmt::format("{} objects get no quantities: IFC has no set for their class, or all are unknown",
+                         copy->otherTypes));
+    if (copy->missing > 0)
+        note(fmt::format("{} objects get no quantities: their id is not the GlobalId of one element", copy->missing));
+    return std::move(copy->text);
+}
+
 Result<void> writeTakeOff(const QuantitiesArguments& arguments, const TakeOff& takeOff, const Table& table) {
     if (arguments.output.empty()) return {};
-    if (endingOf(arguments.output) == ".json") {
-        const std::string text =
-            takeOffJson(takeOff, arguments.stated).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-        SVT_DO(writeFileAtomically(arguments.output, text));
+    const std::string ending = endingOf(arguments.output);
+    std::string text;
+    if (ending == ".xlsx") {
+        BookAbout about = bookAbout(takeOff.volume, arguments);
+        about.assumptions = takeOffAssumptions(takeOff);
+        for (const std::string& one : takeOffNotes(takeOff)) about.notes.push_back(one);
+        SVT_TRY(book, takeOffBook(takeOff, arguments.stated, about, arguments.settings));
+        text = std::move(*book);
+    } else if (ending == ".ifc") {
+        SVT_TRY(copy, copyOfIfc(arguments, takeOff));
+        text = std::move(*copy);
+    } else if (ending == ".json") {
+        text = takeOffJson(takeOff, arguments.stated).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     } else {
-        SVT_DO(writeFileAtomically(arguments.output, writers::makeCsv(table)));
+        text = writers::makeCsv(table);
     }
+    SVT_DO(writeFileAtomically(arguments.output, text));
     return {};
+}
+
+// The rows, sums or stated quantities, with the columns, units and headings of the settings.
+Result<Table> shownTable(const QuantitiesArguments& arguments, const TakeOff& takeOff, bool hasSum) {
+    const bool hasSettings = !arguments.settingsFile.empty();
+    if (arguments.stated) {
+        Table stated = statedTable(takeOff);
+        return hasSettings ? withHeadings(std::move(stated), arguments.settings) : stated;
+    }
+    const std::size_t keys = takeOff.keys.size();
+    Table table = keys == 0 ? takeOffTable(takeOff, hasSum) : takeOffSums(takeOff, hasSum);
+    if (!hasSettings) return table;
+    SVT_TRY(changed, withQuantitySettings(std::move(table), arguments.settings, keys == 0 ? 0 : keys + 1));
+    return withHeadings(std::move(*changed), arguments.settings);
 }
 
 Result<int> printTakeOff(const volume::SemanticVolume& volume, const QuantitiesArguments& arguments) {
@@ -149,12 +210,8 @@ Result<int> printTakeOff(const volume::SemanticVolume& volume, const QuantitiesA
     takeOff.counted = quantities::countedVolumes(volume, takeOff.objects);
     if (arguments.exterior || !arguments.formwork.empty()) SVT_DO(addTouchingAreas(arguments, takeOff));
     addTexts(arguments, takeOff);
-    const auto tableOf = [&](bool hasSum) {
-        return arguments.stated       ? statedTable(takeOff)
-               : takeOff.keys.empty() ? takeOffTable(takeOff, hasSum)
-                                      : takeOffSums(takeOff, hasSum);
-    };
-    SVT_DO(writeTakeOff(arguments, takeOff, tableOf(false)));
+    SVT_TRY(rows, shownTable(arguments, takeOff, false));
+    SVT_DO(writeTakeOff(arguments, takeOff, *rows));
     TerminalProgress::hide();
     if (takeOff.objects.empty()) note("no objects are measured; use --where with a query that selects objects");
     for (const std::string& text : takeOffNotes(takeOff)) note(text);
@@ -162,8 +219,48 @@ Result<int> printTakeOff(const volume::SemanticVolume& volume, const QuantitiesA
         print(takeOffJson(takeOff, arguments.stated));
     else if (!arguments.output.empty() && !arguments.csv)
         summarize(fmt::format("{}: {} objects", arguments.output.string(), takeOff.objects.size()));
-    else
-        print(tableOf(!arguments.csv), arguments.csv ? TableFormat::Csv : TableFormat::Text);
+    else if (arguments.csv)
+        print(*rows, TableFormat::Csv);
+    else {
+        SVT_TRY(withSum, shownTable(arguments, takeOff, true));
+        print(*withSum, TableFormat::Text);
+    }
+    return kDone;
+}
+
+// Writes and prints the rows of --between.
+Result<int> printContactTable(const volume::SemanticVolume& volume, const QuantitiesArguments& arguments, Table table,
+                              std::size_t withoutMesh, double sum, double sumOfB) {
+    std::vector<std::string> notes;
+    if (withoutMesh > 0)
+        notes.push_back(fmt::format("{} objects have no mesh; their contacts are unknown", withoutMesh));
+    if (table.rows.empty()) notes.emplace_back("no two objects of the selections touch");
+    const bool hasSettings = !arguments.settingsFile.empty();
+    const Table headed = hasSettings ? withHeadings(table, arguments.settings) : table;
+    if (!arguments.output.empty()) {
+        const std::string ending = endingOf(arguments.output);
+        std::string text;
+        if (ending == ".xlsx") {
+            BookAbout about = bookAbout(volume, arguments);
+            about.notes.insert(about.notes.end(), notes.begin(), notes.end());
+            SVT_TRY(book, contactBook(table, about, arguments.settings));
+            text = std::move(*book);
+        } else {
+            text = ending == ".json" ? writers::makeJson(table) : writers::makeCsv(headed);
+        }
+        SVT_DO(writeFileAtomically(arguments.output, text));
+    }
+    TerminalProgress::hide();
+    for (const std::string& text : notes) note(text);
+    if (arguments.json || arguments.csv) {
+        print(arguments.json ? table : headed, arguments.json ? TableFormat::JsonRows : TableFormat::Csv);
+    } else if (!arguments.output.empty()) {
+        summarize(fmt::format("{}: {} pairs", arguments.output.string(), table.rows.size()));
+    } else {
+        Table shown = headed;
+        if (!shown.rows.empty()) shown.rows.push_back({"(sum)", Cell(), Cell(), Cell(), sum, sumOfB});
+        print(shown, TableFormat::Text);
+    }
     return kDone;
 }
 
@@ -208,29 +305,24 @@ Result<int> printContacts(const volume::SemanticVolume& volume, const Quantities
         sum += area;
         sumOfB += ofB;
     }
-    if (!arguments.output.empty())
-        SVT_DO(writeFileAtomically(arguments.output, endingOf(arguments.output) == ".json" ? writers::makeJson(table)
-                                                                                           : writers::makeCsv(table)));
-    TerminalProgress::hide();
-    if (withoutMesh > 0) note(fmt::format("{} objects have no mesh; their contacts are unknown", withoutMesh));
-    if (table.rows.empty()) note("no two objects of the selections touch");
-    const TableFormat format = arguments.json  ? TableFormat::JsonRows
-                               : arguments.csv ? TableFormat::Csv
-                                               : TableFormat::Text;
-    if (format == TableFormat::Text && !arguments.output.empty()) {
-        summarize(fmt::format("{}: {} pairs", arguments.output.string(), table.rows.size()));
-        return kDone;
-    }
-    if (format == TableFormat::Text && !table.rows.empty())
-        table.rows.push_back({"(sum)", Cell(), Cell(), Cell(), sum, sumOfB});
-    print(table, format);
-    return kDone;
+    return printContactTable(volume, arguments, std::move(table), withoutMesh, sum, sumOfB);
 }
 
-Result<int> runQuantities(const QuantitiesArguments& arguments) {
+Result<int> runQuantities(const QuantitiesArguments& given) {
+    QuantitiesArguments arguments = given;
+    if (!arguments.settingsFile.empty()) {
+        SVT_TRY(settings, readQuantitySettings(arguments.settingsFile));
+        arguments.settings = std::move(*settings);
+    }
     if (isCity(arguments.input))
         return Error(Code::BadArgument,
                      "'" + arguments.input.string() + "' is a city; measure parts of it (svt city extract)");
+    if (endingOf(arguments.output) == ".ifc" && contentOf(arguments.input) != FileContent::Ifc)
+        return Error(Code::BadArgument,
+                     "'" + arguments.input.string() +
+                         "' is not an IFC file; a copy with quantities (-o F.ifc) needs one as input");
+    if (endingOf(arguments.output) == ".ifc" && !arguments.between.empty())
+        return Error(Code::BadArgument, "IFC files have no contacts; write them as .csv, .json or .xlsx");
     if (!arguments.between.empty() && arguments.between.size() != 2)
         return Error(Code::BadArgument, "--between needs two queries; give it twice");
     for (const std::string& query : {arguments.where, arguments.formwork})
@@ -239,8 +331,7 @@ Result<int> runQuantities(const QuantitiesArguments& arguments) {
     pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
     SVT_TRY(volume, loadVolume(arguments.input, build, TerminalProgress().get(), false));
-    if (volume->vectors.triangles.empty())
-        note("the volume has no meshes, so areas, lengths and openings are unknown; build it with --vectors meshes");
+    if (volume->vectors.triangles.empty()) note(kNoMeshes);
     return arguments.between.empty() ? printTakeOff(*volume, arguments) : printContacts(*volume, arguments);
 }
 
@@ -252,8 +343,12 @@ Members<QuantitiesArguments> membersOf(const QuantitiesArguments*) noexcept {
                             {.value = "QUERY", .otherwise = "all components"}),
         member<&All::by>("--by", "sums by class, material, storey or other attributes, such as material,storey",
                          {.value = "KEYS"}),
-        member<&All::output>("-o,--output", "write the rows to a file: .csv or .json",
-                             {.value = "FILE", .file = FileUse::Output, .formats = "csv|json"}),
+        member<&All::output>(
+            "-o,--output",
+            "write the rows to a file: .csv, .json, .xlsx, or .ifc for a copy of an IFC input with quantities",
+            {.value = "FILE", .file = FileUse::Output, .formats = "csv|json|xlsx|ifc"}),
+        member<&All::settingsFile>("--settings", "columns, units and language of tables (JSON)",
+                                   {.value = "FILE", .group = "Output", .file = FileUse::OtherInput}),
         member<&All::exterior>("--exterior", "areas that outside air touches, by orientation", {.group = "Areas"}),
         member<&All::formwork>("--formwork",
                                "areas of the objects of this query that touch neither each other nor soil",

@@ -125,6 +125,8 @@ Members<SampleArguments> membersOf(const SampleArguments*) noexcept {
             "--turn", "turn in plan", {.unit = "degrees counter-clockwise", .least = -360, .most = 360}),
         member<&All::options, &SampleOptions::thematic>("--thematic",
                                                         "CityGML 2.0: walls only as surfaces, as in LoD4"),
+        member<&All::options, &SampleOptions::bakeOpenings>(
+            "--bake-openings", "IFC: openings as holes of the bodies, without IfcOpeningElement"),
         member<&All::options, &SampleOptions::change>("--change", "house: seed of edits, for known answers of svt diff",
                                                       {.value = "SEED", .least = 0}),
         member<&All::changeList>("--change-list", "file for the known answer of --change (.json)",

@@ -54,9 +54,9 @@ Json dependenciesJson() {
 
 // Parts that not every build has.
 Json partsJson() {
-    return {{"openGl", kIsNative},      {"pdf", kIsNative},       {"geoPackage", kIsNative},
-            {"projections", kIsNative}, {"addresses", kIsNative}, {"films", kIsNative},
-            {"threads", kIsNative},     {"processes", kIsNative}, {"sanitizer", kIsSanitized}};
+    return {{"openGl", kIsNative},      {"pdf", kIsNative},         {"geoPackage", kIsNative}, {"xlsx", kIsNative},
+            {"projections", kIsNative}, {"addresses", kIsNative},   {"films", kIsNative},      {"threads", kIsNative},
+            {"processes", kIsNative},   {"sanitizer", kIsSanitized}};
 }
 
 }  // namespace

@@ -202,6 +202,15 @@ constexpr StatedName kStated[] = {
     {"Perimeter", false, true, [](const ObjectQuantities& q) { return q.perimeter; }},
 };
 
+// The measured quantity of a name, if it has a meaning for the object.
+Known measuredOf(const StatedName& name, const ObjectQuantities& object) {
+    // An upright body has a length and no width, see ObjectQuantities.
+    const bool isUpright = object.length && !object.width, isFlat = object.width.has_value();
+    const bool isDefined =
+        (isUpright && name.isOfUpright) || (isFlat && name.isOfFlat) || (name.isOfUpright && name.isOfFlat);
+    return isDefined ? name.measured(object) : Known();
+}
+
 const StatedName* statedNameOf(std::string_view attribute) {
     const std::size_t dot = attribute.find('.');
     if (dot == std::string_view::npos) return nullptr;
@@ -231,23 +240,24 @@ Json tableRows(const Table& table) {
     return rows;
 }
 
-Json assumptionsOf(const TakeOff& takeOff) {
-    Json list = Json::array();
-    list.push_back("openings are voids between the two faces of a body, enclosed or reaching its lower edge");
-    list.push_back("a void is as deep as the body is thick; niches and recesses do not count");
-    list.push_back("the volume of a mesh that was closed by caps refers to the closed mesh; its bound is unknown");
-    list.push_back("space that several objects share counts once in sums");
-    if (!takeOff.exterior.empty()) list.push_back("north is +y of the coordinate reference system");
-    if (!takeOff.exterior.empty()) list.push_back("outside air is air that is connected to the border of the model");
+}  // namespace
+
+std::vector<std::string> takeOffAssumptions(const TakeOff& takeOff) {
+    std::vector<std::string> list{
+        "openings are voids between the two faces of a body, enclosed or reaching its lower edge",
+        "a void is as deep as the body is thick; niches and recesses do not count",
+        "the volume of a mesh that was closed by caps refers to the closed mesh; its bound is unknown",
+        "space that several objects share counts once in sums"};
+    if (!takeOff.exterior.empty()) {
+        list.emplace_back("north is +y of the coordinate reference system");
+        list.emplace_back("outside air is air that is connected to the border of the model");
+    }
     if (!takeOff.formwork.empty())
-        list.push_back(
+        list.emplace_back(
             "soil is only where terrain is a body: below a terrain surface, faces count as free; faces that look up "
-            "need "
-            "formwork");
+            "need formwork");
     return list;
 }
-
-}  // namespace
 
 Table takeOffTable(const TakeOff& takeOff, bool hasSum) {
     Table table;
@@ -304,6 +314,13 @@ Table takeOffSums(const TakeOff& takeOff, bool hasSum) {
     return table;
 }
 
+std::vector<StatedFigure> statedFigures(const ObjectQuantities& object) {
+    std::vector<StatedFigure> figures;
+    for (const StatedName& name : kStated)
+        if (const Known measured = measuredOf(name, object)) figures.push_back({name.name, withoutNoise(*measured)});
+    return figures;
+}
+
 Table statedTable(const TakeOff& takeOff) {
     Table table;
     table.columns = {{"id", "id"},
@@ -316,15 +333,11 @@ Table statedTable(const TakeOff& takeOff) {
     for (const ObjectQuantities& object : takeOff.objects) {
         const volume::Label& label = takeOff.volume.labels.labels[object.label];
         if (model::classRank(label.className) != model::ClassRank::Element) continue;
-        // An upright body has a length and no width, see ObjectQuantities.
-        const bool isUpright = object.length && !object.width, isFlat = object.width.has_value();
         for (const Attribute& attribute : label.attributes) {
             const StatedName* name = statedNameOf(attribute.name);
             const Known stated = name != nullptr ? numberOf(attribute.value) : Known();
             if (!stated) continue;
-            const bool isDefined =
-                (isUpright && name->isOfUpright) || (isFlat && name->isOfFlat) || (name->isOfUpright && name->isOfFlat);
-            const Known measured = isDefined ? name->measured(object) : Known();
+            const Known measured = measuredOf(*name, object);
             table.rows.push_back({label.id, label.className, label.name, attribute.name, cellOf(stated),
                                   cellOf(measured), measured ? cellOf(Known(*measured - *stated)) : Cell()});
         }
@@ -370,7 +383,7 @@ Json takeOffJson(const TakeOff& takeOff, bool hasStated) {
     }
     if (hasStated) json["stated"] = tableRows(statedTable(takeOff));
     json["total"] = sumsJson(takeOff, sumOfAll(takeOff));
-    json["assumptions"] = assumptionsOf(takeOff);
+    json["assumptions"] = takeOffAssumptions(takeOff);
     return json;
 }
 

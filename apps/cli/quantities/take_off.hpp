@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace svt::cli {
@@ -37,11 +38,22 @@ struct TakeOff {
 /// One row for each combination of the values of the keys. \param hasSum  the last row is the sum of all
 [[nodiscard]] Table takeOffSums(const TakeOff& takeOff, bool hasSum);
 
+/// A measured quantity by its name in sets `Qto_...` of IFC: m, m2, m3.
+struct StatedFigure {
+    std::string_view name;
+    double value = 0;
+};
+/// The known quantities of an object that such sets name.
+[[nodiscard]] std::vector<StatedFigure> statedFigures(const quantities::ObjectQuantities& object);
+
 /// Quantities that the file states, beside the measured ones: one row per object and quantity.
 [[nodiscard]] Table statedTable(const TakeOff& takeOff);
 
 /// See docs/user/json.md. \param hasStated  adds the rows of statedTable()
 [[nodiscard]] Json takeOffJson(const TakeOff& takeOff, bool hasStated);
+
+/// The assumptions of the figures, as sentences.
+[[nodiscard]] std::vector<std::string> takeOffAssumptions(const TakeOff& takeOff);
 
 /// Notes on quantities that sums exclude, and on volumes counted in voxels.
 [[nodiscard]] std::vector<std::string> takeOffNotes(const TakeOff& takeOff);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace svt::quantities {
@@ -256,6 +257,20 @@ std::vector<std::uint32_t> objectsOf(const volume::SemanticVolume& volume, std::
         if (isTaken[l] != 0 && !isOfOther) objects.push_back(l);
     }
     return objects;
+}
+
+std::vector<std::uint32_t> defaultObjects(const volume::SemanticVolume& volume) {
+    std::vector<std::uint32_t> all(volume.labels.labels.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const std::vector<std::uint32_t> objects = objectsOf(volume, all);
+    std::vector<std::uint32_t> components, bodies;
+    for (const std::uint32_t object : objects) {
+        const volume::Label& label = volume.labels.labels[object];
+        if (isComponent(label)) components.push_back(object);
+        if (!isBoundarySheet(label)) bodies.push_back(object);
+    }
+    if (!components.empty()) return components;
+    return bodies.empty() ? objects : bodies;
 }
 
 std::vector<ObjectQuantities> measureObjects(const volume::SemanticVolume& volume,

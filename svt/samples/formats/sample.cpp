@@ -76,6 +76,8 @@ bool SampleComponent::contains(Vec3d point) const {
 }
 
 Result<void> writeSample(SampleKind kind, SampleFormat format, const SampleOptions& options, const SampleSink& sink) {
+    if (options.bakeOpenings && format != SampleFormat::Ifc4)
+        return Error(Code::BadArgument, "only IFC files have openings to bake; write the sample as IFC");
     SVT_TRY(source, SampleSource::make(kind, options));
     TextSink out(sink);
     switch (format) {
@@ -83,7 +85,7 @@ Result<void> writeSample(SampleKind kind, SampleFormat format, const SampleOptio
         case SampleFormat::CityGml2: writeCityGml2(*source, options.thematic, out); break;
         case SampleFormat::CityJson2: writeCityJson(*source, out); break;
         case SampleFormat::CityJsonSeq2: writeCityJsonSeq(*source, out); break;
-        case SampleFormat::Ifc4: writeIfc(*source, out); break;
+        case SampleFormat::Ifc4: writeIfc(*source, options.bakeOpenings, out); break;
     }
     out.flush();
     if (out.hasFailed()) return Error(Code::CannotWrite, "the sink took no more of the sample");

@@ -575,6 +575,18 @@ TEST(House, IsParametricInIfc) {
               std::string::npos);
 }
 
+TEST(House, HasBakedOpeningsInIfc) {
+    SampleOptions options;
+    options.bakeOpenings = true;
+    const std::string ifc = text(SampleKind::House, SampleFormat::Ifc4, options);
+    for (const char* word : {"IFCOPENINGELEMENT", "IFCRELVOIDSELEMENT", "IFCRELFILLSELEMENT"})
+        EXPECT_EQ(ifc.find(word), std::string::npos) << word;
+    EXPECT_NE(ifc.find("=IFCFACETEDBREP("), std::string::npos);
+    const auto refused = writeSample(SampleKind::House, SampleFormat::CityGml3, options);
+    ASSERT_FALSE(refused.hasValue());
+    EXPECT_NE(refused.error().message().find("only IFC files"), std::string::npos) << refused.error().message();
+}
+
 // A change of a design or writer changes these hashes.
 TEST(Sample, BytesAreTheSameOnEveryMachine) {
     SampleOptions turned = smallOptions();

@@ -14,7 +14,8 @@ void writeCityGml3(SampleSource& source, TextSink& out);
 void writeCityGml2(SampleSource& source, bool isThematic, TextSink& out);
 void writeCityJson(SampleSource& source, TextSink& out);
 void writeCityJsonSeq(SampleSource& source, TextSink& out);
-void writeIfc(SampleSource& source, TextSink& out);  ///< ifc/ifc_writer.cpp
+/// ifc/ifc_writer.cpp. \param hasBakedOpenings  see SampleOptions::bakeOpenings
+void writeIfc(SampleSource& source, bool hasBakedOpenings, TextSink& out);
 /// A GlobalId (22 characters) that depends only on `key`; ifc/ifc_records.cpp.
 [[nodiscard]] std::string globalId(std::string_view key);
 

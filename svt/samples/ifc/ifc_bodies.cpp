@@ -1,6 +1,8 @@
 #include <svt/samples/ifc/ifc_bodies.hpp>
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 
 namespace svt::samples {
 namespace {
@@ -63,6 +65,28 @@ int IfcBodies::solid(const Frame& frame, const Solid& solid, const std::vector<b
     }
     style(result, solid.material);
     return result;
+}
+
+int IfcBodies::brep(const Frame& frame, std::span<const Point> vertices, const Shell& shell, Material shown) {
+    std::map<std::uint32_t, int> points;
+    std::vector<int> faces;
+    for (const Face& face : shell.faces) {
+        std::vector<int> bounds;
+        for (const std::vector<std::uint32_t>& ring : face.rings) {
+            std::vector<int> corners;
+            for (const std::uint32_t vertex : ring) {
+                int& point = points[vertex];
+                if (point == 0) point = records_.point(frame.local(toDouble(vertices[vertex])));
+                corners.push_back(point);
+            }
+            const int loop = records_.add("IFCPOLYLOOP", corners);
+            bounds.push_back(records_.add(bounds.empty() ? "IFCFACEOUTERBOUND" : "IFCFACEBOUND", loop, ".T."));
+        }
+        faces.push_back(records_.add("IFCFACE", bounds));
+    }
+    const int body = records_.add("IFCFACETEDBREP", records_.add("IFCCLOSEDSHELL", faces));
+    style(body, shown);
+    return body;
 }
 
 int IfcBodies::representation(const std::vector<int>& items, std::string_view type) {

@@ -6,6 +6,7 @@
 #include <svt/samples/parts/plan.hpp>
 
 #include <array>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +24,10 @@ public:
     /// A solid without the pieces that `isLeftOut` marks, as one extrusion or a tree of IfcBooleanResult.
     /// \param isLeftOut  by piece; may be empty
     int solid(const Frame& frame, const Solid& solid, const std::vector<bool>& isLeftOut, bool& isBoolean);
+
+    /// A closed shell of planar faces as an IfcFacetedBrep.
+    /// \param vertices  of the plan, to which the rings of the shell refer
+    int brep(const Frame& frame, std::span<const Point> vertices, const Shell& shell, Material shown);
 
     /// IfcShapeRepresentation 'Body' of items.
     int representation(const std::vector<int>& items, std::string_view type);

@@ -81,7 +81,8 @@ Box3d boundsOf(const Solid& solid, const Piece& piece) {
 
 class IfcWriter {
 public:
-    IfcWriter(SampleSource& source, TextSink& out) : source_(source), out_(out), records_(out) {}
+    IfcWriter(SampleSource& source, bool hasBakedOpenings, TextSink& out)
+        : source_(source), hasBakedOpenings_(hasBakedOpenings), out_(out), records_(out) {}
 
     void write() {
         out_ << "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('ViewDefinition [DesignTransferView]'),'2;1');\nFILE_NAME('"
@@ -242,7 +243,14 @@ private:
             representations.push_back(
                 records_.add("IFCSHAPEREPRESENTATION", axis_, "'Axis','Curve2D'", std::array{line}));
         }
-        if (component.instance) {
+        const bool isBaked =
+            hasBakedOpenings_ && std::find(isOpening.begin(), isOpening.end(), true) != isOpening.end();
+        if (isBaked) {
+            const Shell& shell = component.shells.front();
+            const Material material = document_.shown(component.solids.front().material);
+            const int body = bodies_->brep(frame, placed_->plan->vertices, shell, material);
+            representations.push_back(bodies_->representation({body}, "Brep"));
+        } else if (component.instance) {
             representations.push_back(mapped(*component.instance));
         } else {
             std::vector<int> items;
@@ -316,6 +324,7 @@ private:
 
     void openings(std::size_t c, const Frame& frame, int place, const std::vector<bool>& isOpening) {
         openingRecords_.erase(int(c));
+        if (hasBakedOpenings_) return;
         for (std::size_t p = 0; p < isOpening.size(); ++p) {
             if (!isOpening[p]) continue;
             const Solid& solid = placed_->plan->components[c].solids.front();
@@ -412,6 +421,7 @@ private:
     }
 
     SampleSource& source_;
+    bool hasBakedOpenings_;
     TextSink& out_;
     IfcRecords records_;
     std::optional<IfcBodies> bodies_;
@@ -429,6 +439,8 @@ private:
 
 }  // namespace
 
-void writeIfc(SampleSource& source, TextSink& out) { IfcWriter(source, out).write(); }
+void writeIfc(SampleSource& source, bool hasBakedOpenings, TextSink& out) {
+    IfcWriter(source, hasBakedOpenings, out).write();
+}
 
 }  // namespace svt::samples

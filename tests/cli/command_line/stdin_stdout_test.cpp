@@ -102,8 +102,12 @@ const std::vector<Written>& writtenByCommands() {
         {"query two.svt all -o OUT", ".parquet", "objectparquet"},
         {"quantities two.svt -q -o OUT", ".csv", "csv"},
         {"quantities two.svt -q -o OUT", ".json", "json"},
+        {"quantities two.svt -q -o OUT", ".xlsx", "xlsx"},
+        {"quantities small.ifc --spacing 1 -q -o OUT", ".ifc", "ifc"},
         {"diff two.gml two.gml --spacing 0.5 -o OUT", ".csv", "csv"},
         {"diff two.gml two.gml --spacing 0.5 -o OUT", ".svt", "svt"},
+        {"diff two.gml two.gml --spacing 0.5 -o OUT", ".html", "html"},
+        {"diff two.gml two.gml --spacing 0.5 -o OUT", ".bcf", "bcf"},
         {"shell two.svt -o OUT", ".svt", "svt"},
         {"shell two.svt -o OUT", ".glb", "glb"},
         {"convert two.svt OUT", ".nrrd", "nrrd"},
@@ -118,7 +122,8 @@ const std::vector<Written>& writtenByCommands() {
 TEST_F(Dash, IsStdoutForEveryCommandWithOneOutput) {
     runLineWell(folder.path(), "svt city plan two.gml -o town --spacing 1 -q && svt city run town -q");
     runLineWell(folder.path(),
-                "svt sample tower --storeys 1 -o tower.gml && svt build tower.gml -o tower.svt --spacing 1 -q");
+                "svt sample tower --storeys 1 -o tower.gml && svt build tower.gml -o tower.svt --spacing 1 -q && "
+                "svt sample house -o small.ifc");
     std::set<std::string> tested;
     for (const Written& written : writtenByCommands()) {
         const auto with = [&](const std::string& output) {

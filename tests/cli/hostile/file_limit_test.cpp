@@ -64,9 +64,13 @@ const LimitedOutput kLimitedOutputs[] = {
     {"--output", {"query", "two.svt", "all", "-o", "o.parquet"}},
     {"--output", {"quantities", "two.svt", "-o", "o.csv"}},
     {"--output", {"quantities", "two.svt", "-o", "o.json"}},
+    {"--output", {"quantities", "two.svt", "-o", "o.xlsx"}},
+    {"--output", {"quantities", "small.ifc", "--spacing", "1", "-o", "o.ifc"}},
     {"--output", {"diff", "two.svt", "two.gml", "-o", "o.csv"}},
     {"--output", {"diff", "two.svt", "two.gml", "-o", "o.json"}},
     {"--output", {"diff", "two.svt", "two.gml", "-o", "o.svt"}},
+    {"--output", {"diff", "two.svt", "two.gml", "-o", "o.html"}},
+    {"--output", {"diff", "two.svt", "two.gml", "-o", "o.bcf"}},
     {"--output", {"shell", "two.svt", "-o", "o.svt"}},
     {"--output", {"shell", "two.svt", "-o", "o.glb"}},
     {"output", {"convert", "two.svt", "o.nrrd"}},
@@ -82,6 +86,7 @@ protected:
         runSvtWell(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "0.5"});
         runSvtWell(folder.path(), {"sample", "tower", "--storeys", "1", "-o", "tower.gml"});
         runSvtWell(folder.path(), {"build", "tower.gml", "-o", "tower.svt", "--spacing", "1"});
+        runSvtWell(folder.path(), {"sample", "house", "-o", "small.ifc"});
     }
 
     // At a limit of a few bytes and at one that the largest file reaches at its half, the command fails and leaves no output; of
