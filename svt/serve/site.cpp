@@ -427,6 +427,11 @@ Result<void> addPageHead(Site& site, PagePreview preview) {
     constexpr std::string_view kCharset = "<meta charset=\"utf-8\" />";
     const std::size_t charset = text.find(kCharset, at);
     std::string changed(text);
+    // The picture that is seen until the model has one of its own; src/main.ts of the viewer takes it.
+    constexpr std::string_view kBody = "<body>";
+    if (const std::size_t body = text.find(kBody, at); body != std::string_view::npos)
+        changed.insert(body + kBody.size(), fmt::format("\n    <img id=\"preview\" src=\"preview.png\" alt=\"{}\" />",
+                                                        attributeText(preview.title)));
     changed.insert(charset == std::string_view::npos ? at + kHead.size() : charset + kCharset.size(), head);
     site.add("/index.html", Bytes::of(std::move(changed)));
     site.add("/preview.png", std::move(preview.picture));

@@ -433,7 +433,7 @@ TEST(PublishedSite, PythonServesIt) {
 
 TEST(PageHead, HasAPolicyAndAPreview) {
     Site site;
-    site.add("/index.html", Bytes::of("<!doctype html><html><head><title>x</title></head></html>"));
+    site.add("/index.html", Bytes::of("<!doctype html><html><head><title>x</title></head><body></body></html>"));
     PagePreview preview{
         "A \"house\" & <more>", "to look into", "https://example.org/h/", Bytes::of("png"), {1200, 630, 0}};
     ASSERT_TRUE(addPageHead(site, preview));
@@ -445,6 +445,10 @@ TEST(PageHead, HasAPolicyAndAPreview) {
     EXPECT_NE(text.find("og:title\" content=\"A &quot;house&quot; &amp; &lt;more>\""), std::string::npos);
     EXPECT_NE(text.find("og:image\" content=\"https://example.org/h/preview.png\""), std::string::npos);
     EXPECT_NE(text.find("og:url\" content=\"https://example.org/h/\""), std::string::npos);
+    EXPECT_NE(
+        text.find("<body>\n    <img id=\"preview\" src=\"preview.png\" alt=\"A &quot;house&quot; &amp; &lt;more>\" />"),
+        std::string::npos)
+        << text;
     EXPECT_EQ(site.find("/preview.png")->type, "image/png");
     Site bare;
     bare.add("/index.html", Bytes::of("hello"));

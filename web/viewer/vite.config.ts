@@ -1,12 +1,23 @@
+import { statSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
 import { billOfMaterialsPlugin } from "./sbom_plugin";
 import { template } from "./src/texts";
 import { toolTemplate } from "./src/tool_texts";
 
+// Servers that compress a module do not announce its size.
+const modules = ["svt_view", "svt_view_threads"];
+const moduleBytes = Object.fromEntries(
+  modules.map((name) => [
+    name,
+    statSync(fileURLToPath(new URL(`../../build/web/${name}.wasm`, import.meta.url)), { throwIfNoEntry: false })?.size ?? 0,
+  ]),
+);
+
 // Relative addresses, so that the page works in any folder of any server.
 export default defineConfig({
   base: "./",
+  define: { kModuleBytes: JSON.stringify(moduleBytes) },
   resolve: { alias: { "lit/directives/style-map.js": fileURLToPath(new URL("src/ui/style_map.ts", import.meta.url)) } },
   build: {
     target: "es2022",

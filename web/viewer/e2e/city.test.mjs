@@ -191,6 +191,35 @@ describe("A city on the page", () => {
     }
   });
 
+  it("names missing tiles, fetches them again, and takes its note back", async () => {
+    const top = JSON.parse(readFileSync(at("town/city.json"), "utf8")).top;
+    let isBroken = true,
+      refused = 0;
+    const server = started(
+      await serveCity((path, first) => {
+        const isTop = path.endsWith(`${String(top.pack).padStart(5, "0")}.svtp`) && first === top.offset;
+        return isBroken && path.startsWith("town/packs/") && !isTop ? (++refused, { status: 404, body: "" }) : null;
+      }),
+    );
+    await open(server.url);
+    const note = page.locator("#missing-tiles");
+    await note.getByText(/^\d+ tiles? (is|are) missing$/).waitFor();
+    const before = refused;
+    await visit.eventually(async () => assert.ok(refused > before, "the page asks again by itself"));
+    isBroken = false;
+    await note.getByRole("button").click();
+    await note.waitFor({ state: "detached" });
+    await complete();
+    assert.deepEqual(await inPage("s.model.city.lacks"), []);
+    // Without a click.
+    isBroken = true;
+    await page.reload();
+    await note.waitFor();
+    isBroken = false;
+    await note.waitFor({ state: "detached" });
+    assert.equal(await page.locator("#said").textContent(), "The missing tiles have come.");
+  });
+
   it("names a server without ranges, and an index that is damaged", async () => {
     const whole = started(await serveCity((_path, _first, _last, _part, all) => ({ status: 200, body: all })));
     await open(whole.url);

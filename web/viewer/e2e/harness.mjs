@@ -14,7 +14,7 @@ export const command = process.env.SVT_COMMAND ?? join(repository, "build/releas
 export const dataDir = process.env.SVT_DATA_DIR ?? resolve(repository, "../shared/data");
 export const browserPath = process.env.SVT_CHROMIUM ?? "/usr/bin/chromium";
 
-const kTypes = {
+export const kTypes = {
   ".html": "text/html",
   ".js": "text/javascript",
   ".css": "text/css",

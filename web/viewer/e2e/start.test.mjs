@@ -1,20 +1,26 @@
 // How a visit begins: what is loaded, when the picture stands, from folders and from `svt serve`.
 import assert from "node:assert/strict";
-import { readdirSync, readFileSync } from "node:fs";
-import { join } from "node:path";
-import { after, before, describe, it } from "node:test";
+import { existsSync, readdirSync, readFileSync, statSync } from "node:fs";
+import { createServer } from "node:http";
+import { extname, join } from "node:path";
+import { after, afterEach, before, beforeEach, describe, it } from "node:test";
 import { gzipSync } from "node:zlib";
-import { page as pageFolder, repository, serve, svtServe } from "./harness.mjs";
+import { kTypes, page as pageFolder, repository, serve, svt, svtServe } from "./harness.mjs";
 import { withHouse } from "./visit.mjs";
 
 const { at, visit, open, address } = withHouse("start");
 const { inPage, state, settled, firstImage, stage, eventually, drop } = visit;
 
+const axe = readFileSync(join(repository, "web/viewer/node_modules/axe-core/axe.min.js"), "utf8");
+
+/** Scripts that are fetched when they are first used. */
+const kOnRequest = /^(section_panes|object_table|command_palette|context_menu|help_dialog)-/;
+
 describe("start", () => {
   it("keeps the budget of bytes", (t) => {
     // Without the font, which is fetched when names are drawn first.
     const files = readdirSync(join(pageFolder, "assets"))
-      .filter((name) => !name.endsWith(".ttf"))
+      .filter((name) => !name.endsWith(".ttf") && !kOnRequest.test(name))
       .map((name) => ({ name, size: gzipSync(readFileSync(join(pageFolder, "assets", name)), { level: 9 }).length }));
     const sum = (is) => files.filter(({ name }) => is.test(name)).reduce((all, { size }) => all + size, 0);
     const own = sum(/^(?!svt[-_]|worker)/),
@@ -97,6 +103,17 @@ describe("start", () => {
       await settled();
       const shifts = await visit.page.evaluate(() => globalThis.shifts);
       assert.ok(shifts <= 0.05, `at ${viewport.width} px, parts move by ${shifts}`);
+      const fetched = await visit.page.evaluate(() =>
+        performance.getEntriesByType("resource").map(({ name }) => name.slice(name.lastIndexOf("/") + 1)),
+      );
+      assert.ok(
+        fetched.some((name) => /^components-/.test(name)),
+        "scripts are listed",
+      );
+      assert.deepEqual(
+        fetched.filter((name) => kOnRequest.test(name)),
+        [],
+      );
     }
   });
 
@@ -109,6 +126,151 @@ describe("start", () => {
     await firstImage();
     assert.equal(await inPage("s.volume.info.name"), "Sample house");
     await empty.close();
+  });
+});
+
+describe("A published page", () => {
+  const name = "preview-test";
+  let site, holds, gates;
+
+  /** @type {(name: string, bytes: Buffer) => import("node:http").OutgoingHttpHeaders} */
+  const withLength = (_name, bytes) => ({ "Content-Length": bytes.length });
+
+  /** Serves a folder; files whose names match `holds` come in half, until their gate opens. */
+  function serveFolder(folder, headers = withLength) {
+    const server = createServer(async (request, response) => {
+      const file = decodeURIComponent(new URL(request.url, "http://x").pathname).slice(1) || "index.html";
+      const path = join(folder, file);
+      if (!existsSync(path) || !statSync(path).isFile()) return response.writeHead(404).end();
+      const bytes = readFileSync(path);
+      response.writeHead(200, { "Content-Type": kTypes[extname(file)] ?? "application/octet-stream", ...headers(file, bytes) });
+      if (!holds.test(file)) return response.end(bytes);
+      response.write(bytes.subarray(0, bytes.length >> 1));
+      await new Promise((done) => gates.push(done));
+      response.end(bytes.subarray(bytes.length >> 1));
+    });
+    return new Promise((done) =>
+      server.listen(0, "127.0.0.1", () =>
+        done({
+          url: `http://127.0.0.1:${/** @type {import("node:net").AddressInfo} */ (server.address()).port}/`,
+          close: () => new Promise((r) => (server.closeAllConnections(), server.close(r))),
+        }),
+      ),
+    );
+  }
+  const openGates = () => gates.splice(0).forEach((open) => open());
+  const bar = () => visit.page.locator("#arriving");
+  const percent = () => bar().getAttribute("aria-valuenow");
+
+  before(() => svt("publish", at("house.svt"), "-o", at(name), "--viewer", pageFolder, "--force"));
+  beforeEach(() => ((holds = /\.(wasm|svt)$/), (gates = [])));
+  afterEach(async () => (openGates(), await site?.close(), (site = null)));
+
+  it("shows its picture at once, and how many per cent have come", async () => {
+    site = await serveFolder(at(name));
+    for (const viewport of [
+      { width: 1280, height: 800 },
+      { width: 390, height: 844 },
+    ]) {
+      await visit.begin({ viewport });
+      await visit.page.addInitScript(() => {
+        globalThis.shifts = 0;
+        new PerformanceObserver((list) => {
+          for (const entry of /** @type {any[]} */ (list.getEntries())) if (!entry.hadRecentInput) globalThis.shifts += entry.value;
+        }).observe({ type: "layout-shift", buffered: true });
+      });
+      await visit.page.goto(site.url);
+      const image = visit.page.locator("svt-app #preview");
+      await image.waitFor();
+      await visit.page.waitForFunction(
+        () =>
+          /** @type {HTMLImageElement} */ (document.querySelector("svt-app").shadowRoot.querySelector("#preview")).naturalWidth === 1200,
+      );
+      const [seen, whole] = [await image.boundingBox(), await stage()];
+      assert.deepEqual([seen.x, seen.y, seen.width], [whole.x, whole.y, whole.width], "it fills the place of the picture");
+      await eventually(async () => assert.equal(await percent(), "49"));
+      assert.match(await bar().innerText(), /49%/);
+      assert.equal(await visit.page.evaluate(() => document.querySelectorAll("body > #preview").length), 0);
+      await visit.page.evaluate(axe);
+      const { violations } = await visit.page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
+      assert.deepEqual(
+        violations.map(({ id, nodes }) => [id, nodes.map(({ target }) => target)]),
+        [],
+      );
+      openGates();
+      await firstImage();
+      await image.waitFor({ state: "detached" });
+      assert.equal(await bar().count(), 0);
+      await visit.page.waitForFunction(() => customElements.get("wa-split-panel") && customElements.get("svt-view-cube"));
+      await settled();
+      const shifts = await visit.page.evaluate(() => globalThis.shifts);
+      assert.ok(shifts <= 0.05, `at ${viewport.width} px, parts move by ${shifts}`);
+      assert.deepEqual(visit.problems, []);
+    }
+  });
+
+  it("is seen before its scripts run, below the bar", async () => {
+    holds = /assets\/.*\.js$/;
+    site = await serveFolder(at(name));
+    await visit.begin();
+    await visit.page.goto(site.url, { waitUntil: "commit" });
+    const early = await visit.page.locator("body > #preview").boundingBox();
+    assert.deepEqual(early, { x: 0, y: 49, width: 1200, height: 591 });
+    holds = /\.(wasm|svt)$/;
+    openGates();
+    const image = visit.page.locator("svt-app #preview");
+    await image.waitFor();
+    assert.deepEqual(await image.boundingBox(), early);
+    openGates();
+  });
+
+  it("counts a compressed module by its true size, and shows no per cent without the size of the volume", async () => {
+    /** @type {typeof withLength} */
+    const packed = (file, bytes) => (file.endsWith(".wasm") ? { "Transfer-Encoding": "chunked" } : { "Content-Length": bytes.length });
+    site = await serveFolder(at(name), packed);
+    await visit.begin();
+    await visit.page.goto(site.url);
+    await eventually(async () => assert.equal(await percent(), "49"));
+    openGates();
+    await firstImage();
+    await site.close();
+    // Neither list nor server know the size.
+    site = await serveFolder(at(name), () => ({ "Transfer-Encoding": "chunked" }));
+    await visit.begin();
+    await visit.page.route("**/models.json", async (route) => {
+      const response = await route.fetch();
+      const { models } = await response.json();
+      await route.fulfill({ json: { models: models.map((model) => ({ ...model, bytes: 0 })) } });
+    });
+    await visit.page.goto(site.url);
+    await bar().waitFor();
+    await visit.until("s.model.opening !== null || s.messages.progress !== null");
+    assert.equal(await percent(), null);
+    openGates();
+    await firstImage();
+    assert.equal(await bar().count(), 0);
+  });
+
+  it("begins as before without a picture, and with another model than the one in it", async () => {
+    site = await serveFolder(at(name));
+    await visit.begin();
+    await visit.page.route("**/preview.png", (route) => route.fulfill({ status: 404, body: "" }));
+    await visit.page.goto(site.url);
+    await visit.page.locator("main .progress").waitFor();
+    await eventually(async () => assert.equal(await visit.page.locator("svt-app #preview").count(), 0));
+    openGates();
+    await firstImage();
+    await visit.begin();
+    await visit.page.route("**/models.json", async (route) => {
+      const response = await route.fetch();
+      const { models } = await response.json();
+      await route.fulfill({ json: { models: [{ ...models[0], name: "first" }, ...models] } });
+    });
+    await visit.page.goto(`${site.url}?model=house`);
+    await visit.page.locator("main .progress").waitFor();
+    assert.equal(await visit.page.locator("#preview").count(), 0);
+    openGates();
+    await firstImage();
   });
 });
 

@@ -195,6 +195,37 @@ describe("by keyboard", () => {
     assert.equal(clicks, 0);
   });
 
+  it("colours rooms by area, with 2 keys besides the words", async () => {
+    await begin();
+    await act("colour by floor area");
+    await eventually(async () => assert.equal((await state()).colorBy, "area"));
+    await act("colour by own colours");
+    await eventually(async () => assert.equal((await state()).colorBy, ""));
+    assert.equal(clicks, 0);
+  });
+
+  it("hides a roof by its name, with 3 keys besides the name", async () => {
+    await begin();
+    await keys("/");
+    await visit.page.keyboard.type("roof slab");
+    await keys("Enter");
+    await eventually(async () => assert.deepEqual((await state()).selection, ["house_roof_south"]));
+    await keys("h");
+    await eventually(async () => assert.equal((await state()).hide.length, 2));
+    assert.equal(clicks, 0);
+  });
+
+  it("highlights one unit of a building, with 5 keys besides the words", async () => {
+    await begin("tower");
+    await keys("/");
+    await visit.page.keyboard.type("BuildingUnit");
+    await keys("ArrowDown", "Enter");
+    await eventually(async () => assert.equal((await state()).selection.length, 1));
+    await act("highlight");
+    await eventually(async () => assert.equal((await state()).effect, "highlight"));
+    assert.equal(clicks, 0);
+  });
+
   it("compares two flats, walks, looks through a lens, and keeps views as BCF", async () => {
     await begin("tower");
     await keys("/");

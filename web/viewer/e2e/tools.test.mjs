@@ -3,11 +3,14 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { before, describe, it } from "node:test";
-import { svt } from "./harness.mjs";
+import { join } from "node:path";
+import { repository, svt } from "./harness.mjs";
 import { withHouse } from "./visit.mjs";
 
 const { at, visit, open } = withHouse("tools");
 const { inPage, state, settled, stage, eventually, tool, saved } = visit;
+
+const axe = readFileSync(join(repository, "web/viewer/node_modules/axe-core/axe.min.js"), "utf8");
 
 describe("tools", () => {
   before(() => open());
@@ -269,5 +272,143 @@ describe("tools", () => {
     await visit.page.getByRole("button", { name: "As in the model" }).click();
     assert.deepEqual((await state()).styles, []);
     await visit.page.getByRole("tab", { name: "Structure" }).click();
+  });
+});
+
+describe("four views", () => {
+  const page = () => visit.page;
+  const panes = () => page().locator("svt-section-panes");
+  const at = () => inPage("[...document.querySelector('svt-app').shadowRoot.querySelector('svt-section-panes').at]");
+  /** The cuts of all scenes that have been drawn since the last call, each once. */
+  const drawn = () => page().evaluate(() => [...new Set(globalThis.cuts.splice(0))].map((cut) => cut[0]).sort());
+  const quiet = async () => {
+    await settled();
+    await visit.until("document.querySelector('svt-app').shadowRoot.querySelector('svt-section-panes').isComplete");
+  };
+  const paneBox = (name) => panes().locator(`#${name}`).boundingBox();
+
+  before(async () => {
+    await open();
+    await page().evaluate(() => {
+      const { engine } = document.querySelector("svt-app").session.volume;
+      const picture = engine.picture;
+      globalThis.cuts = [];
+      engine.picture = (scene) => (globalThis.cuts.push(scene.passes[0].cut), picture(scene));
+    });
+  });
+
+  it("open by a button, with sections through the middle", async () => {
+    await page().click("#four");
+    await panes().locator("#side canvas").waitFor({ state: "attached" });
+    await quiet();
+    assert.deepEqual(await drawn(), ["x", "y", "z"]);
+    const size = await inPage("s.volume.info.size");
+    (await at()).forEach((v, i) => assert.ok(Math.abs(v - size[i] / 2) < 0.2, `${v} of ${size[i]}`));
+    const [plan, front, side, whole, app] = [
+      await paneBox("plan"),
+      await paneBox("front"),
+      await paneBox("side"),
+      await stage(),
+      await page().locator("svt-app .middle.four").boundingBox(),
+    ];
+    assert.deepEqual([whole.width, plan.width, front.width, side.width].map(Math.round), Array(4).fill(Math.round(app.width / 2)));
+    assert.ok(plan.x >= whole.x + whole.width - 1 && front.y >= whole.y + whole.height - 1);
+    // A plan through the middle of the house shows walls, and the paper around it.
+    for (const name of ["plan", "front", "side"]) {
+      const { length } = await panes().locator(`#${name} canvas`).screenshot();
+      assert.ok(length > 3000, `${name}: ${length} bytes`);
+    }
+  });
+
+  it("draw only sections that a click has moved", async () => {
+    const before = await at();
+    const plan = await paneBox("plan");
+    await page().mouse.click(plan.x + plan.width * 0.4, plan.y + plan.height * 0.4);
+    const after = await at();
+    assert.ok(after[0] < before[0] && after[1] > before[1] && after[2] === before[2], `${before} -> ${after}`);
+    await quiet();
+    assert.deepEqual(await drawn(), ["x", "y"]);
+    // The lines of the plan cross where the click was.
+    const x = Number(await panes().locator("#plan line").first().getAttribute("x1"));
+    assert.ok(Math.abs(x - 40) < 0.5, `at ${x}`);
+    // The camera of the 3D view moves no section.
+    const { camera } = await state();
+    await page().keyboard.press("2");
+    await eventually(async () => assert.notDeepEqual((await state()).camera, camera));
+    await quiet();
+    assert.deepEqual(await drawn(), []);
+    // A click in the 3D view moves all.
+    const picture = await stage();
+    const pick = await inPage("s.volume.engine.pick(0.45, 0.6)");
+    await page().mouse.click(picture.x + picture.width * 0.45, picture.y + picture.height * 0.6);
+    await eventually(async () => (await at()).forEach((v, i) => assert.ok(Math.abs(v - pick.point[i]) < 0.05, `${v}, ${pick.point[i]}`)));
+    await quiet();
+    assert.deepEqual(await drawn(), ["x", "y", "z"]);
+  });
+
+  it("zoom by the wheel and pan by a drag, each for itself", async () => {
+    const [before, front] = [await at(), await paneBox("front")];
+    const middle = [front.x + front.width / 2, front.y + front.height / 2];
+    const line = async () => Number(await panes().locator("#front line").first().getAttribute("x1"));
+    const was = await line();
+    await page().mouse.move(middle[0], middle[1]);
+    await page().mouse.wheel(0, -400);
+    await eventually(async () => assert.ok(Math.abs((await line()) - 50) > 1.2 * Math.abs(was - 50)));
+    const near = await line();
+    await page().mouse.down();
+    await page().mouse.move(middle[0] + 60, middle[1], { steps: 4 });
+    await page().mouse.up();
+    await eventually(async () => assert.ok(Math.abs((await line()) - near - 6000 / front.width) < 0.5));
+    assert.deepEqual(await at(), before, "no click");
+    await quiet();
+    assert.deepEqual(await drawn(), ["y"]);
+    await page().keyboard.press("0");
+    await eventually(async () => assert.ok(Math.abs((await line()) - was) < 0.1));
+  });
+
+  it("go by keys, hide what is hidden, and end with Escape", async () => {
+    await page().keyboard.press("Escape");
+    await panes().waitFor({ state: "detached" });
+    await page().keyboard.press("j");
+    await panes().locator("#front .stage").focus();
+    await quiet();
+    await drawn();
+    const before = await at();
+    await page().keyboard.press("ArrowRight");
+    await page().keyboard.press("ArrowUp");
+    await page().keyboard.press("PageUp");
+    const after = await at();
+    assert.ok(after[0] > before[0] && Math.abs(after[1] - before[1] + 0.1) < 1e-6 && after[2] > before[2], `${before} -> ${after}`);
+    assert.match(await page().locator("#said").textContent(), /^x [\d.]+, y [\d.]+, z [\d.]+ m$/);
+    await quiet();
+    assert.deepEqual(await drawn(), ["x", "y", "z"]);
+    await page().evaluate(axe);
+    const { violations } = await page().evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
+    assert.deepEqual(
+      violations.map(({ id, nodes }) => [id, nodes.map(({ target }) => target)]),
+      [],
+    );
+    await inPage("s.view.set({ hide: [...s.view.state.hide, 'id=house_slab_1'] })");
+    await quiet();
+    assert.deepEqual(await drawn(), ["x", "y", "z"]);
+    assert.deepEqual(visit.problems, []);
+    await page().click("#four");
+    await panes().waitFor({ state: "detached" });
+    await settled();
+  });
+
+  it("begin at the selection, and fit a phone in German", async () => {
+    await open("?model=house", { viewport: { width: 390, height: 844 }, locale: "de-DE" });
+    await inPage("s.selection.select(['house_hidden_beam'])");
+    await visit.until("s.selection.properties?.id === 'house_hidden_beam'");
+    await page().keyboard.press("j");
+    await panes()
+      .getByRole("heading", { name: /^Grundriss: z = \d+,\d\d m$/ })
+      .waitFor();
+    const { low, high } = await inPage("s.selection.properties.box");
+    (await at()).forEach((v, i) => assert.ok(v >= low[i] && v <= high[i], `${v} in ${low[i]} ... ${high[i]}`));
+    const [plan, dock] = [await paneBox("side"), await page().locator("svt-app .dock").boundingBox()];
+    assert.ok(plan.y + plan.height <= dock.y + 1, "above the tools");
+    assert.ok(await page().evaluate(() => document.documentElement.scrollWidth <= innerWidth), "nothing to scroll");
   });
 });

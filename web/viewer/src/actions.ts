@@ -5,8 +5,9 @@ import { kSceneMembers } from "./generated/scene_members";
 import { selectionActions } from "./selection_actions";
 import type { Session } from "./session";
 import type { Tool } from "./session/view";
+import { coloredBy, colorKeys } from "./state/color_keys";
 import { kViews } from "./state/member_controls";
-import { t } from "./texts";
+import { t, type TextKey } from "./texts";
 import { toggleParallel } from "./camera/projection";
 import { toolText } from "./tool_texts";
 import { cutStorey, levelsOf } from "./tools/section_tool";
@@ -37,6 +38,8 @@ export interface ActionHost {
   choose(): void;
   openPalette(): void;
   openTable(): void;
+  /** Shows a plan and two sections beside the picture, or closes them. */
+  openFour(): void;
 }
 
 export const kTools: readonly { tool: Tool; icon: IconName; key: string }[] = [
@@ -50,6 +53,7 @@ export const kTools: readonly { tool: Tool; icon: IconName; key: string }[] = [
 ];
 
 const kMostStoreys = 200;
+const kMostAttributes = 100;
 
 /** The action of a key that is enabled now. */
 export function actionOfKey(actions: readonly Action[], event: KeyboardEvent): Action | undefined {
@@ -145,6 +149,7 @@ function pageActions(host: ActionHost, hasParts: () => boolean): Action[] {
       isEnabled: hasParts,
       run: () => (session.view.aim = "rectangle"),
     },
+    { id: "four", text: () => t("fourViews"), icon: "four", keys: ["j"], isEnabled: hasParts, run: () => host.openFour() },
     { id: "table", text: () => t("tableHint"), icon: "table", keys: ["t"], isEnabled: hasParts, run: () => host.openTable() },
     {
       id: "panel-tree",
@@ -198,6 +203,29 @@ function toolActions(host: ActionHost): Action[] {
     press("export-views", () => t("bookmarksExport"), "bookmark", "share", "#export-views"),
     press("import-views", () => t("bookmarksImport"), "bookmark", "share", "#import-views"),
     press("export-bcf", () => t("bcfExport"), "bookmark", "share", "#export-bcf"),
+  ];
+}
+
+/** Colours by each key. Not in `actionsOf`, because the keys depend on all features. */
+export function colorActions({ model, view, volume }: Session): Action[] {
+  const { info, index } = volume;
+  if (!info) return [];
+  const keys = colorKeys(info, index, model.owners.file !== "");
+  const action = (key: string, name: string): Action => ({
+    id: `color-${key}`,
+    text: () => `${t("colorBy")}: ${name}`,
+    icon: "look",
+    run: () => view.set(coloredBy(view.state, key, keys, index)),
+  });
+  return [
+    ...keys.own.map(({ key }) => action(key, t(`key_${key}` as TextKey))),
+    ...keys.attributes.slice(0, kMostAttributes).map(({ key }) => action(key, key)),
+    {
+      id: "color-none",
+      text: () => `${t("colorBy")}: ${t("colorByNothing")}`,
+      icon: "look",
+      run: () => view.set(coloredBy(view.state, "", keys, index)),
+    },
   ];
 }
 

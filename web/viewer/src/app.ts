@@ -1,11 +1,13 @@
 /** The page: bar, panels, picture, tools, and global keyboard shortcuts. */
 
 import { html, nothing, type PropertyValues } from "lit";
-import { actionOfKey, actionsOf, kTools, storeyActions, type ActionHost } from "./actions";
+import { actionOfKey, actionsOf, colorActions, kTools, storeyActions, type ActionHost } from "./actions";
 import { appStyles } from "./app_styles";
+import type { Arrival } from "./arrival";
 import "./canvas/picture";
 import type { PictureTools } from "./canvas/overlay";
-import type { PictureView } from "./canvas/picture";
+import type { PickEvent, PictureView } from "./canvas/picture";
+import type { SectionPanes } from "./canvas/section_panes";
 import type { CommandPalette } from "./panels/command_palette";
 import type { ContextMenu } from "./panels/context_menu";
 import type { HelpDialog } from "./panels/help_dialog";
@@ -31,7 +33,7 @@ import "./tools/share_tool";
 import { leaveCustom } from "./tools/share_tool";
 import "./tools/views_tool";
 import { setWalking } from "./tools/views_tool";
-import { movedText, number, t } from "./texts";
+import { movedText, number, percentText, t } from "./texts";
 import { movedByArrow } from "./ui/arrow_keys";
 import { icon, type IconName } from "./ui/icons";
 import { controls, Part } from "./ui/part";
@@ -50,8 +52,10 @@ export class App extends Part implements ActionHost {
     isTreeShown: { state: true },
     isSelectionShown: { state: true },
     isTableShown: { state: true },
+    isFourShown: { state: true },
     isDropping: { state: true },
     dockAt: { state: true },
+    preview: { attribute: false },
   };
   declare canvas: HTMLCanvasElement;
   declare isNarrow: boolean;
@@ -59,9 +63,15 @@ export class App extends Part implements ActionHost {
   declare isTreeShown: boolean;
   declare isSelectionShown: boolean;
   declare isTableShown: boolean;
+  /** A plan and two sections are beside the picture. */
+  declare isFourShown: boolean;
   declare isDropping: boolean;
   /** The tool that the Tab key reaches. */
   declare dockAt: number;
+  /** Address of a picture that is shown until the model has one of its own; empty: none. */
+  declare preview: string;
+  /** null: how much has come is not known. */
+  arrival: Arrival | null = null;
   /** Handlers for files, and for a listed model. */
   onFiles: (files: File[]) => void = () => {};
   onModel: (name: string) => void = () => {};
@@ -81,8 +91,10 @@ export class App extends Part implements ActionHost {
     this.isTreeShown = !this.isNarrow;
     this.isSelectionShown = true;
     this.isTableShown = false;
+    this.isFourShown = false;
     this.isDropping = false;
     this.dockAt = 0;
+    this.preview = "";
   }
 
   override connectedCallback(): void {
@@ -110,6 +122,7 @@ export class App extends Part implements ActionHost {
 
   override willUpdate(_: PropertyValues): void {
     const { session } = this;
+    if (session.picture.report || session.model.status === "empty") this.preview = "";
     const { along, isEmpty } = session.selection;
     const what = along ?? session.view.now.selection;
     if (this.seenSelection === what) return;
@@ -140,7 +153,7 @@ export class App extends Part implements ActionHost {
         ${isEmpty ? html`<svt-start .session=${session}></svt-start>` : hasModel && !this.isNarrow ? this.wide() : this.middle()}
         ${this.isNarrow && hasModel ? this.sheets() : nothing}
         ${this.isTableShown && hasModel ? html`<section class="table" aria-label=${t("tableHint")}><svt-table .session=${session}></svt-table></section>` : nothing}
-        ${session.messages.progress ? this.progress() : nothing}
+        ${this.preview ? this.arriving() : session.messages.progress ? this.progress() : nothing}
         ${session.messages.message ? this.message() : nothing}
         ${this.isDropping ? html`<div class="dropping">${t("dropNow")}</div>` : nothing}
       </main>
@@ -177,6 +190,7 @@ export class App extends Part implements ActionHost {
       }
       ${hasModel && !volume.isServerOnly ? html`${this.stepButton("undo", view.history.last, () => view.undo())}${this.stepButton("redo", view.history.next, () => view.redo())}` : nothing}
       ${hasModel && !volume.isServerOnly ? html`<button class="bare" id="table" aria-pressed=${this.isTableShown} aria-label=${t("tableHint")} title="${t("tableHint")} (T)" @click=${() => this.openTable()}>${icon("table")}</button>` : nothing}
+      ${hasModel && !volume.isServerOnly ? html`<button class="bare" id="four" aria-pressed=${this.isFourShown} aria-label=${t("fourViews")} title="${t("fourViews")} (J)" @click=${() => this.openFour()}>${icon("four")}</button>` : nothing}
       <button class="bare" id="actions" aria-haspopup="dialog" aria-label=${t("actionsHint")} title=${t("actionsHint")} @click=${() => this.openPalette()}>${icon("menu")}</button>
       <button class="bare" id="open" aria-label=${t("openHint", { kinds: kFileKinds.join(", ") })} title=${t("openHint", { kinds: kFileKinds.join(", ") })} @click=${() => this.choose()}>${icon("open")}</button>
       <button class="bare" id="theme" aria-label=${t("theme")} title=${t("theme")} @click=${() => this.switchTheme()}>${icon(theme() === "dark" ? "sun" : "moon")}</button>
@@ -255,8 +269,11 @@ export class App extends Part implements ActionHost {
     const { session } = this;
     const { view, picture } = session;
     this.pictureTools ??= measuringOf(session);
-    return html`<div class="middle">
-      <svt-picture .session=${session} .canvas=${this.canvas} .tools=${this.pictureTools}></svt-picture>
+    const isFour = this.isFourShown && session.volume.info !== null && !session.volume.isServerOnly;
+    return html`<div class="middle ${isFour ? "four" : ""}">
+      <svt-picture .session=${session} .canvas=${this.canvas} .tools=${this.pictureTools} @svt-pick=${this.pickedInPicture}></svt-picture>
+      ${isFour ? html`<svt-section-panes .session=${session}></svt-section-panes>` : nothing}
+      ${this.preview ? html`<img class="preview" id="preview" src=${this.preview} alt="" @error=${() => (this.preview = "")} />` : nothing}
       ${
         session.volume.info
           ? html`
@@ -266,6 +283,7 @@ export class App extends Part implements ActionHost {
           ${view.now.custom ? html`<div class="note">${t("customScene")}<button @click=${() => view.set(leaveCustom(view.state))}>${t("leaveCustom")}</button></div>` : nothing}
           ${session.volume.isServerOnly ? html`<div class="note">${t("serverPictures")}</div>` : nothing}
           ${session.model.refining.isCoarse ? this.coarse() : nothing}
+          ${this.missingTiles()}
           ${picture.moved.length && view.now.sections.length ? html`<div class="note" id="moved-plane">${movedText(picture.moved)}</div>` : nothing}
           ${view.isLegendShown ? html`<svt-legend .session=${session}></svt-legend>` : nothing}
         </div>
@@ -287,6 +305,17 @@ export class App extends Part implements ActionHost {
           ? html`<progress aria-label=${t("makingFiner")} max="1" value=${progress.share >= 0 ? progress.share : nothing}></progress><span>${progress.text}</span><button id="stay-coarse" @click=${() => refining.stop()}>${t("stayCoarse")}</button>`
           : html`<button id="refine" @click=${() => refining.again()}>${t("makeFiner")}</button>`
       }</div>`;
+  }
+
+  /** The tiles of a city that could not be fetched. */
+  private missingTiles() {
+    const { city } = this.session.model;
+    if (!city || (!city.isStopped && !city.lacks.length)) return nothing;
+    const n = city.lacks.length;
+    const isBusy = city.isFetchingAgain;
+    return html`<div class="note" id="missing-tiles"><strong>${n > 1 ? t("cityMissing", { n }) : t(n ? "cityMissingOne" : "cityMissingSome")}</strong>
+      ${n ? html`<span class="quiet small">${city.lacks[0]}</span>` : nothing}
+      <button id="fetch-again" aria-disabled=${isBusy} @click=${() => city.fetchAgain()}>${t(isBusy ? "cityFetchingAgain" : "cityFetchAgain")}</button></div>`;
   }
 
   private status() {
@@ -377,7 +406,23 @@ export class App extends Part implements ActionHost {
   private progress() {
     const { text, share } = this.session.messages.progress!;
     return html`<div class="progress"><div><div role="status">${text}<progress aria-label=${text} max="1" value=${share >= 0 ? share : nothing}></progress></div>
-      ${this.session.model.opening ? html`<button id="cancel" @click=${() => this.session.model.cancelOpening()}>${t("cancel")}</button>` : nothing}</div></div>`;
+      ${this.cancelButton()}</div></div>`;
+  }
+
+  /** The received share of library and model, at the lower border of the preview. */
+  private arriving() {
+    const share = this.arrival?.share ?? null;
+    // Only whole bytes are all bytes.
+    const percent = share === null ? nothing : Math.floor(100 * share);
+    const text = t("loadingModel");
+    return html`<div class="progress low"><div><div class="above">${text}${this.cancelButton()}</div>
+      <div class="arriving" id="arriving" role="progressbar" aria-label=${text} aria-valuemin="0" aria-valuemax="100" aria-valuenow=${percent}>
+        <progress aria-hidden="true" max="100" value=${percent}></progress>${share === null ? nothing : html`<span>${percentText(share)}</span>`}</div></div></div>`;
+  }
+
+  private cancelButton() {
+    const { model } = this.session;
+    return model.opening ? html`<button id="cancel" @click=${() => model.cancelOpening()}>${t("cancel")}</button>` : nothing;
   }
 
   private message() {
@@ -468,7 +513,7 @@ export class App extends Part implements ActionHost {
 
   openPalette(): void {
     void this.loaded<CommandPalette>("svt-palette", () => import("./panels/command_palette")).then((palette) =>
-      palette?.show([...actionsOf(this), ...storeyActions(this.session)]),
+      palette?.show([...actionsOf(this), ...colorActions(this.session), ...storeyActions(this.session)]),
     );
   }
 
@@ -480,6 +525,16 @@ export class App extends Part implements ActionHost {
     if (this.isNarrow) this.session.view.tool = null;
     void this.loaded("svt-table", () => import("./panels/object_table"));
   }
+
+  openFour(): void {
+    this.isFourShown = !this.isFourShown;
+    if (this.isFourShown) void this.loaded("svt-section-panes", () => import("./canvas/section_panes"));
+    else this.picture?.focus();
+  }
+
+  private readonly pickedInPicture = ({ detail: { pick } }: PickEvent): void => {
+    if (pick) this.renderRoot.querySelector<SectionPanes>("svt-section-panes")?.moveTo?.(pick.point);
+  };
 
   private async openMenu({ detail }: MenuRequest): Promise<void> {
     const { session } = this;
@@ -508,6 +563,7 @@ export class App extends Part implements ActionHost {
     else if (session.view.aim) session.view.aim = null;
     else if (session.messages.message) this.dismiss();
     else if (session.view.tool) this.endTool(session.view.tool);
+    else if (this.isFourShown) this.openFour();
     else if (session.view.isWalking) setWalking(session, false);
     else if (session.model.refining.progress) session.model.refining.stop();
     else if (!this.session.selection.isEmpty) {

@@ -32,6 +32,10 @@ export const appStyles = css`
   .column { display: flex; flex-direction: column; }
   .column aside { flex: 1 1 0; min-height: 0; }
   .middle { position: relative; height: 100%; min-width: 0; overflow: hidden; }
+  /* The tools are below the four views. */
+  svt-section-panes { position: absolute; inset: 0 0 80px; }
+  .four svt-picture { position: absolute; left: 0; top: 0; width: 50%; height: calc(50% - 40px); }
+  .four .status { right: calc(50% + 12px); }
   .floating { position: absolute; right: 10px; top: 10px; width: 290px; max-height: calc(100% - 96px); overflow: auto; border: 1px solid var(--line); border-radius: 12px; background: var(--panel); box-shadow: var(--shadow); z-index: 3; }
   .floating svt-properties { height: auto; }
   .sheet { position: absolute; left: 0; right: 0; bottom: 0; height: 62%; background: var(--panel); border-top: 1px solid var(--line); border-radius: 14px 14px 0 0; box-shadow: var(--shadow); z-index: 5; overflow: hidden; display: grid; grid-template: auto 1fr / minmax(0, 1fr); }
@@ -60,6 +64,12 @@ export const appStyles = css`
   .progress { position: absolute; inset: 0; display: grid; place-items: center; z-index: 7; pointer-events: none; }
   .progress > div { width: min(320px, calc(100% - 40px)); padding: 16px 18px; border-radius: 14px; background: var(--panel); border: 1px solid var(--line); box-shadow: var(--shadow); font-size: 13px; display: grid; gap: 8px; }
   .progress button { pointer-events: auto; justify-self: end; }
+  .progress.low { place-items: end center; padding-bottom: 84px; }
+  /* As high as its button, which comes later. */
+  .progress .above { display: flex; justify-content: space-between; align-items: center; min-height: 44px; }
+  .arriving { display: flex; min-height: 20px; align-items: center; gap: 10px; font-variant-numeric: tabular-nums; }
+  .arriving span { min-width: 4ch; text-align: end; }
+  .preview { position: absolute; inset: 0; width: 100%; height: 100%; object-fit: contain; background: var(--stage); pointer-events: none; }
   progress { width: 100%; height: 6px; accent-color: var(--accent); }
   .dropping { position: absolute; inset: 10px; border: 3px dashed var(--accent); border-radius: 18px; display: grid; place-items: center; background: color-mix(in srgb, var(--panel) 75%, transparent); font-size: 20px; font-weight: 600; z-index: 9; pointer-events: none; }
   .skip { position: absolute; left: 8px; top: -60px; z-index: 20; }
@@ -79,7 +89,9 @@ export const appStyles = css`
     main { display: grid; }
     main > .middle { display: grid; grid-template-rows: minmax(0, 1fr) auto auto; }
     /* Over the picture only. */
-    svt-aim { grid-area: 1 / 1 / 2 / 2; }
+    svt-aim, .preview, svt-section-panes { grid-area: 1 / 1 / 2 / 2; }
+    svt-section-panes { inset: 0; }
+    .four svt-picture { position: relative; height: 50%; }
     .dock, .card, .sheet { position: static; transform: none; max-width: none; width: auto; border-radius: 0; border-width: 1px 0 0; box-shadow: none; }
     .dock { order: 2; justify-content: space-between; }
     .dock button { min-width: 0; padding: 5px 2px; flex: 1; font-size: 10.5px; overflow: hidden; }
@@ -94,7 +106,7 @@ export const appStyles = css`
   @media (max-width: 479px) {
     header { flex-wrap: wrap; justify-content: space-between; }
     /* The list of actions has them. */
-    #theme, #table { display: none; }
+    #theme, #table, #four { display: none; }
     .title { flex-basis: 100%; padding-left: 6px; }
     .title select { max-width: 100%; }
     header .languages { width: auto; }

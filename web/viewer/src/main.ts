@@ -1,6 +1,6 @@
 /** Start: fetches engine and model at once, while the page is built. */
 
-import { canvas, creating, listing } from "./early";
+import { arrival, canvas, creating, listing } from "./early";
 import "./ui/theme.css";
 import "./app";
 import type { App } from "./app";
@@ -36,6 +36,11 @@ app.session = session;
 app.canvas = canvas;
 app.onFiles = (files) => void openFiles(session, files);
 app.onModel = (name) => void openModel(session, name);
+app.arrival = arrival;
+/** The picture of a published page (addPageHead() in svt/serve/site.cpp); it shows the first model. */
+const preview = document.querySelector<HTMLImageElement>("#preview");
+preview?.remove();
+if (preview && !new URLSearchParams(location.search).has("model")) app.preview = preview.src;
 document.body.append(app);
 addEventListener("hashchange", () => void follow());
 void start();
@@ -76,6 +81,7 @@ async function start(): Promise<void> {
   const linked = linkedState();
   const list = await listing;
   session.volume.models = list.models;
+  if (preview && list.chosen && list.chosen === list.models[0]) app.preview = preview.src;
   if (list.chosen) {
     session.model.status = "loading";
     session.messages.progress = { text: t("starting"), share: -1 };

@@ -1,7 +1,9 @@
 /** Opens listed models and user files. */
 
 import { CityFiles } from "./city/city_files";
+import { Download } from "./download";
 import { kModelEndings } from "./generated/model_endings";
+import { effect, untracked } from "./observable";
 import type { Session } from "./session";
 import type { ListedModel } from "./session/open_volume";
 import { keptFile } from "./state/kept_files";
@@ -12,7 +14,7 @@ export interface ModelList {
   models: ListedModel[];
   chosen: ListedModel | null;
   /** Pending download of the chosen model. */
-  bytes: Promise<Response> | null;
+  bytes: Download | null;
   /** The files of a chosen city, of which the first are being fetched. */
   files: CityFiles | null;
   note: string | null;
@@ -25,8 +27,7 @@ export async function readModels(wanted: string | null): Promise<ModelList> {
   const note = wanted !== null && chosen && chosen.name !== wanted ? t("noModel", { name: wanted }) : null;
   const files = chosen?.city ? filesOf(chosen) : null;
   void files?.begin();
-  const bytes = chosen && !files ? fetch(chosen.file) : null;
-  bytes?.catch(() => undefined);
+  const bytes = chosen && !files ? new Download(chosen.file, chosen.bytes) : null;
   return { models, chosen, bytes, files, note };
 }
 
@@ -51,7 +52,7 @@ export async function openModel(
   session: Session,
   name: string,
   state: ViewState | null = null,
-  coming: Promise<Response> | null = null,
+  coming: Download | null = null,
   files: CityFiles | null = null,
 ): Promise<boolean> {
   const { model, volume, messages } = session;
@@ -60,15 +61,13 @@ export async function openModel(
   const title = listed.title || listed.name;
   const fileName = listed.file.split("/").pop()!.split("?")[0]!;
   const fetched = async (signal: AbortSignal) => {
-    const response = await (coming ?? fetch(listed.file, { signal })).catch(() => {
-      throw { message: t("notReached", { name: listed.file }) };
+    const download = coming ?? new Download(listed.file, listed.bytes);
+    signal.addEventListener("abort", () => download.cancel());
+    const unwatch = effect(() => {
+      const { done, all } = download;
+      if (done > 0 && all > kSlowBytes) untracked(() => (messages.progress = progressOf(title, done, all)));
     });
-    if (!response.ok) throw { message: t("notLoaded", { name: listed.file, status: response.status }) };
-    const expected = listed.bytes || lengthOf(response);
-    const bytes = await received(response, expected, signal, (done) => {
-      const text = `${t("loadingFile", { name: title })}: ${t("loadedBytes", { done: bytesText(done), all: bytesText(expected || done) })}`;
-      messages.progress = { text, share: expected ? done / expected : -1 };
-    });
+    const bytes = await download.bytes.finally(unwatch);
     return [{ name: fileName, bytes }];
   };
   const again = async () => [{ name: fileName, bytes: await (await fetch(listed.file)).arrayBuffer() }];
@@ -82,29 +81,12 @@ export async function openModel(
   return true;
 }
 
-/** The announced number of bytes; 0: unknown, also if the connection compresses them. */
-function lengthOf({ headers }: Response): number {
-  return headers.get("Content-Encoding") ? 0 : Number(headers.get("Content-Length") ?? 0);
-}
+/** Smaller files come too quickly for their progress to be of interest. */
+const kSlowBytes = 1e6;
 
-/** The bytes of a response, with progress for slow downloads. */
-async function received(response: Response, expected: number, signal: AbortSignal, progress: (done: number) => void): Promise<ArrayBuffer> {
-  if (!response.body || !(expected > 1e6)) return response.arrayBuffer();
-  const reader = response.body.getReader();
-  const parts: Uint8Array<ArrayBuffer>[] = [];
-  let done = 0,
-    told = 0;
-  for (;;) {
-    const { done: isEnd, value } = await reader.read();
-    if (signal.aborted) throw signal.reason;
-    if (isEnd) return new Blob(parts).arrayBuffer();
-    parts.push(value as Uint8Array<ArrayBuffer>);
-    done += value.length;
-    if (performance.now() - told > 100) {
-      told = performance.now();
-      progress(done);
-    }
-  }
+function progressOf(name: string, done: number, all: number) {
+  const text = `${t("loadingFile", { name })}: ${t("loadedBytes", { done: bytesText(done), all: bytesText(all) })}`;
+  return { text, share: Math.min(1, done / all) };
 }
 
 /** File types that the library reads: volumes and models; each also compressed by gzip. */

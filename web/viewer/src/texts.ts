@@ -26,10 +26,18 @@ const kTexts = {
   ],
   starting: ["Starting", "Wird gestartet"],
   loadingFile: ["Loading {name}", "{name} wird geladen"],
+  fourViews: ["Four views: 3D, plan and two sections", "Vier Ansichten: 3D, Grundriss und zwei Schnitte"],
+  loadingModel: ["Loading the model", "Das Modell wird geladen"],
   cityLacks: [
     "{n} tiles of the city cannot be shown; all others are shown. {first}",
     "{n} Kacheln der Stadt lassen sich nicht zeigen; alle anderen sind da. {first}",
   ],
+  cityMissing: ["{n} tiles are missing", "{n} Kacheln fehlen"],
+  cityMissingOne: ["1 tile is missing", "1 Kachel fehlt"],
+  cityMissingSome: ["Finer tiles are missing", "Feinere Kacheln fehlen"],
+  cityFetchAgain: ["Fetch again", "Erneut holen"],
+  cityFetchingAgain: ["Fetching again", "Wird erneut geholt"],
+  cityAllThere: ["The missing tiles have come.", "Die fehlenden Kacheln sind da."],
   cityStopped: ["No finer tiles of the city", "Keine feineren Kacheln der Stadt"],
   cityFind: [
     "Press Enter to search for this id in the whole city.",
@@ -527,6 +535,10 @@ export function help(member: SceneMember): string {
 /** Formats numbers in the chosen language. */
 export function number(value: number, digits: number): string {
   return value.toLocaleString(language(), { minimumFractionDigits: digits, maximumFractionDigits: digits });
+}
+/** A share as whole per cent, rounded down: 100% is all of it. */
+export function percentText(share: number): string {
+  return (Math.floor(100 * share) / 100).toLocaleString(language(), { style: "percent" });
 }
 /** A day, from ISO 8601, in the chosen language; other text unchanged. */
 export function dateText(text: string): string {

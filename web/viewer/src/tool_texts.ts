@@ -143,6 +143,19 @@ const kToolTexts = {
   statusInProgress: ["In progress", "In Arbeit"],
   statusClosed: ["Closed", "Erledigt"],
 
+  pane_plan: ["Plan", "Grundriss"],
+  pane_front: ["Section from the front", "Schnitt von vorn"],
+  pane_side: ["Section from the right", "Schnitt von rechts"],
+  paneKeys: [
+    "A click or the arrow keys move the other sections, Page Up and Page Down this one. Shift and arrow keys pan, + and - zoom, 0 shows all.",
+    "Ein Klick oder die Pfeiltasten verschieben die anderen Schnitte, Bild auf und Bild ab diesen. Umschalt und Pfeiltasten verschieben das Bild, + und - vergrößern und verkleinern, 0 zeigt alles.",
+  ],
+  paneFailed: ["This section cannot be drawn.", "Dieser Schnitt lässt sich nicht zeichnen."],
+  keyFour: ["Four views", "Vier Ansichten"],
+  keyFourHow: [
+    "J; a click in a view moves the sections; drag, wheel or + and -; arrow keys, Page Up, Page Down",
+    "J; ein Klick in eine Ansicht verschiebt die Schnitte; ziehen, Rad oder + und -; Pfeiltasten, Bild auf, Bild ab",
+  ],
   keyCube: ["View cube", "Ansichtswürfel"],
   keyCubeHow: [
     "click a face, an edge or a corner; drag; arrow keys turn by 45 degrees; P: parallel",

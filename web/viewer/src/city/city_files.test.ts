@@ -98,3 +98,22 @@ test("Retry-After is read as seconds or a date", () => {
   expect(retryMs(1, "Mon, 07 Nov 1994 08:49:37 GMT", now)).toBeNull();
   for (const bad of ["", "-5", "1.5", "soon", "5 s", "Sun, 06 Now 1994 08:49:50 GMT"]) expect(retryMs(1, bad, now)).toBe(250);
 });
+
+test("a city forgets missing and damaged files, and remembers how long a server asks to wait", async () => {
+  const gone = (response: ServerResponse) => void response.writeHead(404, { Connection: "close" }).end();
+  const server = await serverOf(gone, bytes, busy(503, { "Retry-After": "3600" }), bytes);
+  const { files } = cityAt(server.address);
+  const get = () => files.get([["packs/00000.svtp", 0, 4]]).then(([given]) => given!.total);
+  expect(await get()).toBe(0);
+  expect(await get()).toBe(0);
+  files.forget([]);
+  expect(await get()).toBe(100);
+  files.forget(["packs/00001.svtp"]);
+  expect(await get()).toBe(100);
+  expect(server.requests()).toBe(2);
+  files.forget(["packs/00000.svtp"]);
+  const start = Date.now();
+  expect(await get()).toBe(0);
+  expect(files.askedUntil - start).toBeGreaterThan(3_590_000);
+  expect(await get()).toBe(100);
+});

@@ -4,7 +4,7 @@
  */
 
 import { t } from "../texts";
-import { kMostAttempts, retryMs } from "./retry";
+import { askedMs, kMostAttempts, retryMs } from "./retry";
 
 export type WantedRange = readonly [file: string, offset: number, size: number];
 
@@ -49,6 +49,8 @@ const kUnknown = Number.MAX_SAFE_INTEGER;
 export class CityFiles {
   /** The requests so far. */
   readonly traffic = { requests: 0, bytes: 0 };
+  /** Until this time the server asks for no further request, milliseconds since 1970. */
+  askedUntil = 0;
   private blocks: Block[] = [];
   private coming: Coming[] = [];
   private readonly sizes = new Map<string, number>();
@@ -100,6 +102,12 @@ export class CityFiles {
     return given;
   }
 
+  /** Forgets the bytes of some files, which may be damaged, and all files that did not exist. */
+  forget(names: readonly string[]): void {
+    this.blocks = this.blocks.filter(({ file, total }) => total > 0 && !names.includes(file));
+    for (const name of names) this.sizes.delete(name);
+  }
+
   private find(range: WantedRange): GivenRange | null {
     for (let n = this.blocks.length - 1; n >= 0; --n) {
       const block = this.blocks[n]!;
@@ -139,8 +147,10 @@ export class CityFiles {
       for (let attempt = 1; ; ++attempt) {
         const { answer, mayTryAgain, retryAfter } = await this.ask(file, offset, size);
         if (answer.block) this.blocks.push(answer.block);
+        const now = Date.now();
+        if (mayTryAgain) this.askedUntil = Math.max(this.askedUntil, now + askedMs(retryAfter, now));
         if (!mayTryAgain || attempt === kMostAttempts) return answer;
-        const ms = retryMs(attempt, retryAfter, Date.now());
+        const ms = retryMs(attempt, retryAfter, now);
         if (ms === null) return answer;
         await this.wait(ms);
       }

@@ -39,9 +39,12 @@ function started(answer: (options: CityOptions) => Partial<CityLook> | Error = (
   const parts = { volume, view, messages };
   const selection = new Selection(parts),
     picture = new ShownPicture(parts);
-  const asked: number[] = [];
+  const asked: number[] = [],
+    shown: string[] = [],
+    files = { askedUntil: 0, forget: vi.fn() };
   const look = async (options: CityOptions) => {
     asked.push(options.pixels);
+    shown.push(options.shown);
     await new Promise((done) => setTimeout(done, 10));
     const given = answer(options);
     if (given instanceof Error) throw given;
@@ -51,12 +54,12 @@ function started(answer: (options: CityOptions) => Partial<CityLook> | Error = (
     followCity: (_files: unknown, _scene: unknown, _size: unknown, options: CityOptions) => look(options),
     cityInfo: () => Promise.resolve(kInfo),
   } as unknown as Engine;
-  const city = new CityStream({} as CityFiles, { ...parts, selection, picture });
+  const city = new CityStream(files as unknown as CityFiles, { ...parts, selection, picture });
   city.show(kInfo);
   view.state = { ...view.state, camera: cameraAt(1) };
   city.begin();
   const draw = () => (picture.report = { width: 9, height: 9, milliseconds: 1, engine: "cpu" });
-  return { city, view, messages, asked, draw };
+  return { city, view, messages, files, asked, shown, draw };
 }
 
 it("waits for the first picture, then fetches coarse tiles, finer ones, and rests", async () => {
@@ -111,4 +114,80 @@ it("fetches nothing more once another model is open", async () => {
   await vi.advanceTimersByTimeAsync(1000);
   expect(asked).toEqual([4]);
   expect(city.isComplete).toBe(false);
+});
+
+const kLack = "packs/00000.svtp: the server does not answer";
+
+it("fetches missing tiles again, later each time, and no more once they have come", async () => {
+  let lacks: string[] = [kLack, kLack];
+  const { city, messages, files, asked, shown, draw } = started(() => ({ info: kInfo, lacks }));
+  draw();
+  await vi.advanceTimersByTimeAsync(1000);
+  expect(city.isComplete).toBe(true);
+  expect(city.lacks).toEqual([kLack, kLack]);
+  expect(messages.said).toContain("2 tiles of the city cannot be shown");
+  const times: number[] = [];
+  const first = asked.length;
+  const start = Date.now();
+  for (let seen = first; Date.now() - start < 9000; await vi.advanceTimersByTimeAsync(100))
+    if (asked.length > seen) {
+      seen = asked.length;
+      times.push(Date.now() - start);
+    }
+  expect(times.length).toBe(2);
+  expect(times[1]! - times[0]!).toBeGreaterThan(3500);
+  expect(shown.slice(first)).toEqual(["", ""]);
+  expect(files.forget).toHaveBeenCalledWith(["packs/00000.svtp"]);
+  lacks = [];
+  await vi.advanceTimersByTimeAsync(20_000);
+  expect(city.lacks).toEqual([]);
+  expect(messages.said).toBe("The missing tiles have come.");
+  const last = asked.length;
+  await vi.advanceTimersByTimeAsync(600_000);
+  expect(asked.length).toBe(last);
+});
+
+it("stops to fetch missing tiles after some rounds, until the user asks for them", async () => {
+  let lacks: string[] = [kLack];
+  const { city, asked, draw } = started(() => ({ info: kInfo, lacks }));
+  draw();
+  await vi.advanceTimersByTimeAsync(1000);
+  const first = asked.length;
+  await vi.advanceTimersByTimeAsync(3_600_000);
+  expect(asked.length).toBe(first + 5);
+  lacks = [];
+  city.fetchAgain();
+  expect(city.isFetchingAgain).toBe(true);
+  city.fetchAgain();
+  await vi.advanceTimersByTimeAsync(1000);
+  expect(asked.length).toBe(first + 6);
+  expect([city.isFetchingAgain, city.lacks]).toEqual([false, []]);
+});
+
+it("waits as long as the server asks for, but not for hours", async () => {
+  const { city, files, asked, draw } = started(() => ({ info: kInfo, lacks: [kLack] }));
+  files.askedUntil = Date.now() + 30_000;
+  draw();
+  await vi.advanceTimersByTimeAsync(1000);
+  const first = asked.length;
+  await vi.advanceTimersByTimeAsync(28_000);
+  expect(asked.length).toBe(first);
+  files.askedUntil = Date.now() + 7_200_000;
+  await vi.advanceTimersByTimeAsync(2000);
+  expect(asked.length).toBe(first + 1);
+  await vi.advanceTimersByTimeAsync(7_300_000);
+  expect(asked.length).toBe(first + 1);
+  city.end();
+});
+
+it("continues by itself after an interruption, and takes its message back", async () => {
+  let isBroken = true;
+  const { city, messages, asked, draw } = started(() => (isBroken ? new Error("offline") : { info: kInfo }));
+  draw();
+  await vi.advanceTimersByTimeAsync(1000);
+  expect([city.isStopped, messages.message?.text]).toEqual([true, "offline"]);
+  isBroken = false;
+  await vi.advanceTimersByTimeAsync(3000);
+  expect([city.isStopped, messages.message]).toEqual([false, null]);
+  expect(asked.at(-1)).toBe(1);
 });

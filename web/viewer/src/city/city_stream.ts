@@ -10,7 +10,9 @@ import type { ShownPicture } from "../session/shown_picture";
 import type { ViewParts } from "../session/view_part";
 import type { Camera } from "../state/view_state";
 import { t } from "../texts";
+import type { Message } from "../session/messages";
 import type { CityFiles } from "./city_files";
+import { roundMs } from "./retry";
 
 /** Maximum width of voxels in pixels: in the first picture, in a moving one, in one at rest. */
 const kFirstPixels = 4,
@@ -28,7 +30,8 @@ const kTileShare = 0.35;
 /**
  * waiting: for the first picture.
  * following: tiles are being fetched, coarser ones while the camera moves.
- * resting: the picture stays while the camera stays, because all tiles are there, or cannot be fetched.
+ * resting: the picture stays while the camera stays, because all tiles are there, or cannot be fetched. Missing tiles
+ *   are fetched again after a while.
  * ended: another model is open.
  */
 type Phase = "waiting" | "following" | "resting" | "ended";
@@ -48,12 +51,23 @@ export interface CityHost extends ViewParts {
 export class CityStream extends Observable {
   /** The visible part of the city. */
   look: CityLook | null = null;
+  /** No finer tiles could be chosen or fetched: how many are missing is unknown. */
+  isStopped = false;
+  /** Missing tiles are being fetched again. */
+  isFetchingAgain = false;
   private phase: Phase = "waiting";
   private place: Place | null = null;
   /** The page still shows only the coarsest tile. */
   private isFirst = true;
   /** The tiles on the page were opened while the camera moved, without their features. */
   private lacksFeatures = false;
+  /** The next look reads all tiles again. */
+  private isAgain = false;
+  /** Number of times that the page has fetched missing tiles again by itself, and the timer of the next time. */
+  private rounds = 0;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  /** The message about an interruption. */
+  private told: Message | null = null;
   private unwatch: () => void = () => {};
   private wake: () => void = () => {};
 
@@ -67,6 +81,10 @@ export class CityStream extends Observable {
   /** Whether no finer tiles will follow while the camera stays. */
   get isComplete(): boolean {
     return this.phase === "resting";
+  }
+  /** The reason for each missing tile. */
+  get lacks(): readonly string[] {
+    return this.look?.lacks ?? [];
   }
   private get isEnded(): boolean {
     return this.phase === "ended";
@@ -94,6 +112,7 @@ export class CityStream extends Observable {
 
   end(): void {
     this.phase = "ended";
+    clearTimeout(this.timer);
     this.unwatch();
     this.wake();
   }
@@ -119,9 +138,45 @@ export class CityStream extends Observable {
     }
   }
 
+  /** Fetches the missing tiles again, on request of the user. */
+  fetchAgain(): void {
+    if (this.isFetchingAgain || this.isEnded) return;
+    this.rounds = 0;
+    this.beginAgain();
+  }
+
+  private beginAgain(): void {
+    clearTimeout(this.timer);
+    // Reasons begin with the name of the file.
+    this.files.forget([...new Set(this.lacks.map((reason) => reason.split(":")[0]!))]);
+    this.isAgain = this.isFetchingAgain = true;
+    this.beginToFollow();
+  }
+
+  /** Plans the next attempt, if tiles are missing. */
+  private planAgain(): void {
+    clearTimeout(this.timer);
+    this.isFetchingAgain = false;
+    if (!this.isStopped && !this.lacks.length) {
+      this.rounds = 0;
+      return;
+    }
+    const wait = roundMs(this.rounds, this.files.askedUntil - Date.now());
+    if (wait === null) return;
+    this.timer = setTimeout(() => {
+      ++this.rounds;
+      this.beginAgain();
+    }, wait);
+  }
+
   private moved(camera: Camera | null, size: [number, number]): void {
     if (this.place?.camera === camera && this.place.size === size) return;
     this.place = { camera, size, since: performance.now() };
+    clearTimeout(this.timer);
+    this.beginToFollow();
+  }
+
+  private beginToFollow(): void {
     if (this.phase === "following") return;
     this.phase = "following";
     void this.follow();
@@ -132,9 +187,10 @@ export class CityStream extends Observable {
       const place = this.place!;
       const isDone = await this.step(place);
       if (this.isEnded) return;
-      if (isDone && this.place === place) break;
+      if (isDone && this.place === place && !this.isAgain) break;
     }
     this.phase = "resting";
+    this.planAgain();
   }
 
   /** Looks once from a place. Resolves to true if no finer look from there will follow. */
@@ -144,22 +200,41 @@ export class CityStream extends Observable {
     try {
       await this.fetch(pixels);
     } catch (error) {
-      // The visible tiles stay; the next movement tries again.
-      if (!this.isEnded) this.host.messages.fail(error, t("cityStopped"));
+      // The visible tiles stay; the next movement tries again, and so does planAgain().
+      if (!this.isEnded) this.interrupted(error);
       return true;
     }
     this.isFirst = false;
+    this.continued();
     const isLast = pixels === kStillPixels && this.place === place;
     if (isLast) await this.fetchFeatures();
     else if (pixels < kFirstPixels) await this.pause();
     return isLast;
   }
 
+  private interrupted(error: unknown): void {
+    const { messages } = this.host;
+    if (!this.isFetchingAgain) {
+      messages.fail(error, t("cityStopped"));
+      this.told = messages.message;
+    }
+    this.isStopped = true;
+  }
+
+  private continued(): void {
+    const { messages } = this.host;
+    if (this.told && messages.message === this.told) messages.message = null;
+    this.told = null;
+    this.isStopped = false;
+  }
+
   private async fetch(pixels: number): Promise<void> {
     const { view } = this.host;
     const { scene } = view.describe(view.size, 1);
     const isMoving = pixels > kStillPixels;
-    const options = { pixels, memory: memoryOfTiles(), shown: this.look?.key ?? "", isMoving };
+    const shown = this.isAgain ? "" : (this.look?.key ?? "");
+    this.isAgain = false;
+    const options = { pixels, memory: memoryOfTiles(), shown, isMoving };
     const look = await this.engine.followCity(this.files, scene, view.size, options);
     if (this.isEnded) return;
     if (look.info) {
@@ -179,8 +254,11 @@ export class CityStream extends Observable {
   }
 
   private take(look: CityLook): void {
+    const before = this.lacks.length;
     this.look = look;
-    if (look.lacks.length) this.host.messages.tell(t("cityLacks", { n: look.lacks.length, first: look.lacks[0]! }));
+    const n = look.lacks.length;
+    if (n && n !== before) this.host.messages.say(t("cityLacks", { n, first: look.lacks[0]! }));
+    else if (before && !n) this.host.messages.say(t("cityAllThere"));
   }
 
   private pause(): Promise<void> {

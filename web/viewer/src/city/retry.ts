@@ -13,9 +13,29 @@ const kLongestRetryMs = 60_000;
  * @param now  milliseconds since 1970
  */
 export function retryMs(attempt: number, retryAfter: string | null, now: number): number | null {
+  const wait = Math.max(kFirstRetryMs * 2 ** (attempt - 1), askedMs(retryAfter, now));
+  return wait > kLongestRetryMs ? null : wait;
+}
+
+/** Milliseconds that a header Retry-After asks for; 0: none. */
+export function askedMs(retryAfter: string | null, now: number): number {
   const text = retryAfter?.trim() ?? "";
   const date = /^[A-Z][a-z]{2}, \d{2} [A-Z][a-z]{2} \d{4} \d{2}:\d{2}:\d{2} GMT$/.test(text) ? Date.parse(text) : NaN;
-  const asked = /^\d{1,9}$/.test(text) ? 1000 * Number(text) : Number.isNaN(date) ? 0 : date - now;
-  const wait = Math.max(kFirstRetryMs * 2 ** (attempt - 1), asked);
-  return wait > kLongestRetryMs ? null : wait;
+  return /^\d{1,9}$/.test(text) ? 1000 * Number(text) : Number.isNaN(date) ? 0 : Math.max(0, date - now);
+}
+
+/** Maximum number of rounds in which the page fetches missing tiles again by itself. */
+export const kMostRounds = 5;
+const kFirstRoundMs = 2000;
+/** A round may wait longer than a request, because the page goes on meanwhile. */
+const kLongestRoundMs = 600_000;
+
+/**
+ * Milliseconds until missing tiles are fetched again; null: only when the user asks for it.
+ * @param rounds  number of rounds so far, from 0
+ * @param asked  milliseconds that the server asks for
+ */
+export function roundMs(rounds: number, asked: number): number | null {
+  const wait = Math.max(kFirstRoundMs * 2 ** rounds, asked);
+  return rounds >= kMostRounds || wait > kLongestRoundMs ? null : wait;
 }

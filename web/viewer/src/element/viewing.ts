@@ -7,6 +7,7 @@ import "../canvas/picture";
 import type { CameraPreset, Engine, EngineError, Scene } from "../engine";
 import { createEngine } from "../engine/client";
 import { effect, untracked } from "../observable";
+import { Download } from "../download";
 import { openFiles, openModel } from "../opening";
 import { Session } from "../session";
 import { initialState, type Camera, type ViewState } from "../state/view_state";
@@ -85,8 +86,8 @@ export class Viewing {
   async open(address: string): Promise<void> {
     const { volume } = this.session;
     const folder = cityFolder(address);
-    const coming = folder ? null : fetch(address, { signal: this.ended.signal });
-    coming?.catch(() => undefined);
+    const coming = folder ? null : new Download(address, 0);
+    this.ended.signal.addEventListener("abort", () => coming?.cancel());
     const files = folder ? new CityFiles(folder) : null;
     void files?.begin();
     const name = nameOf(folder ?? address);

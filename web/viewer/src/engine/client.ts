@@ -17,6 +17,7 @@ import type {
 } from "../engine";
 import { withBytes } from "./city_calls";
 import { startWorker, type WorkerPlace } from "./start_worker";
+import type { OnReceived } from "./module";
 import type { Answer, Calls, Request } from "./protocol";
 
 type Name = keyof Calls;
@@ -46,10 +47,14 @@ class Connection {
   /** Whether the worker has ever answered: one without any answer would fail again. */
   isAlive = false;
 
-  /** @param died  called when the library has stopped; close() is up to the caller */
+  /**
+   * @param died  called when the library has stopped; close() is up to the caller
+   * @param received  called with the bytes of the module, of how many
+   */
   constructor(
     place: WorkerPlace,
     private readonly died: (error: EngineError) => void,
+    private readonly received: OnReceived = () => {},
   ) {
     this.worker = startWorker(place);
     this.worker.onmessage = (event: MessageEvent<Answer>) => this.take(event.data);
@@ -88,6 +93,7 @@ class Connection {
   }
 
   private take(answer: Answer): void {
+    if ("received" in answer) return this.received(answer.received, answer.all);
     this.isAlive = this.isAlive || !("error" in answer);
     const request = this.waiting.get(answer.id);
     if (!request) return;
@@ -123,10 +129,11 @@ class WorkerEngine {
     canvas: HTMLCanvasElement | null,
     private readonly wanted: EngineKind | null,
     private readonly place: WorkerPlace,
+    onReceived?: OnReceived,
   ) {
     this.screen = canvas?.getContext("bitmaprenderer") ?? null;
     if (canvas && !this.screen) throw { code: "E904", message: "the canvas has another context already" } satisfies EngineError;
-    this.main = this.connect();
+    this.main = this.connect(onReceived);
   }
 
   /** Resolves when the library is loaded. */
@@ -134,12 +141,16 @@ class WorkerEngine {
     ({ kind: this.kind, threads: this.threads } = await this.main.ask("start", [this.wanted]));
   }
 
-  private connect(): Connection {
-    const made: Connection = new Connection(this.place, (error) => {
-      if (made === this.main) this.restart(error);
-      else if (made === this.second) this.endSecond(error);
-      else if (made === this.spare) this.endSpare(error);
-    });
+  private connect(onReceived?: OnReceived): Connection {
+    const made: Connection = new Connection(
+      this.place,
+      (error) => {
+        if (made === this.main) this.restart(error);
+        else if (made === this.second) this.endSecond(error);
+        else if (made === this.spare) this.endSpare(error);
+      },
+      onReceived,
+    );
     return made;
   }
 
@@ -284,15 +295,17 @@ class WorkerEngine {
  * @param canvas  null: draw() is not available
  * @param wanted  the renderer, for tests and measurements; null: the faster one, see drawer.ts
  * @param signal  closes the engine, also while it starts
+ * @param onReceived  called while the library is being loaded
  */
 export async function createEngine(
   canvas: HTMLCanvasElement | null,
   wanted: EngineKind | null = null,
   place: WorkerPlace = { mayUseThreads: true },
   signal: AbortSignal | null = null,
+  onReceived?: OnReceived,
 ): Promise<Engine> {
   if (signal?.aborted) throw kGivenUp;
-  const engine = new WorkerEngine(canvas, wanted, place);
+  const engine = new WorkerEngine(canvas, wanted, place, onReceived);
   signal?.addEventListener("abort", () => engine.close());
   try {
     await engine.start();

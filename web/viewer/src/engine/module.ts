@@ -5,6 +5,7 @@
  */
 import createWhole from "../../../../build/web/svt.js";
 import createView, { type SvtModule, type SvtModuleOptions } from "../../../../build/web/svt_view.js";
+import { lengthOf } from "../download";
 import type { EngineError } from "../engine";
 import { kWithoutThreads } from "./protocol";
 
@@ -12,6 +13,10 @@ export type ModuleKind = "view" | "whole";
 
 type OnProgress = NonNullable<SvtModuleOptions["onProgress"]>;
 type Create = typeof createView;
+/** Told how many bytes of a module have come, of how many; 0: unknown. */
+export type OnReceived = (done: number, all: number) => void;
+/** Sizes of the modules by name, from vite.config.ts, for servers that compress them. */
+declare const kModuleBytes: Record<string, number>;
 
 /** Files of a module. Scripts with threads are not bundled: each thread loads the script again. */
 interface Files {
@@ -48,25 +53,25 @@ interface Begun {
 const begun: Partial<Record<ModuleKind, Promise<Begun>>> = {};
 
 /** Fetches and compiles a module, once. Begins anew after a failure. */
-function begin(kind: ModuleKind): Promise<Begun> {
+function begin(kind: ModuleKind, onReceived?: OnReceived): Promise<Begun> {
   const hasThreads = self.crossOriginIsolated && navigator.hardwareConcurrency > 1 && self.name !== kWithoutThreads;
-  const plain = () => load(kPlain[kind]);
-  const loading = (begun[kind] ??= hasThreads ? load(kThreads[kind]).catch(plain) : plain());
+  const plain = () => load(kPlain[kind], onReceived);
+  const loading = (begun[kind] ??= hasThreads ? load(kThreads[kind], onReceived).catch(plain) : plain());
   loading.catch(() => delete begun[kind]);
   return loading;
 }
 
-async function load(files: Files): Promise<Begun> {
+async function load(files: Files, onReceived?: OnReceived): Promise<Begun> {
   // Compiles while the script is still loading.
-  const compiling = compiled(files.wasm);
+  const compiling = compiled(files.wasm, onReceived);
   compiling.catch(() => undefined);
   const { script } = files;
   const create = script instanceof URL ? ((await import(/* @vite-ignore */ script.href)) as { default: Create }).default : script;
   return { files, wasm: await compiling, create };
 }
 
-export async function loadModule(kind: ModuleKind, onProgress: OnProgress): Promise<SvtModule> {
-  const first = await begin(kind);
+export async function loadModule(kind: ModuleKind, onProgress: OnProgress, onReceived?: OnReceived): Promise<SvtModule> {
+  const first = await begin(kind, onReceived);
   try {
     return await made(first, onProgress);
   } catch (error) {
@@ -94,8 +99,26 @@ export function prepareWhole(): boolean {
 }
 
 /** Compiles during the download. If a server sends the wrong type, compiles after the download, which is slower. */
-async function compiled(url: URL): Promise<WebAssembly.Module> {
-  return WebAssembly.compileStreaming(fetch(url)).catch(async () => WebAssembly.compile(await (await fetch(url)).arrayBuffer()));
+async function compiled(url: URL, onReceived?: OnReceived): Promise<WebAssembly.Module> {
+  const response = fetch(url);
+  if (onReceived) void response.then((given) => count(given.clone(), url, onReceived)).catch(() => undefined);
+  return WebAssembly.compileStreaming(response).catch(async () => WebAssembly.compile(await (await fetch(url)).arrayBuffer()));
+}
+
+/** Counts the bytes of a copy of the response, so that the browser can keep the code that it compiles from the original. */
+async function count(response: Response, url: URL, onReceived: OnReceived): Promise<void> {
+  if (!response.ok || !response.body) return;
+  const name = Object.keys(typeof kModuleBytes === "undefined" ? {} : kModuleBytes).find((key) =>
+    new RegExp(`/${key}(-[^/]*)?\\.wasm$`).test(url.pathname),
+  );
+  const all = name ? kModuleBytes[name]! : lengthOf(response.headers);
+  const reader = response.body.getReader();
+  for (let done = 0; ;) {
+    const { done: isEnd, value } = await reader.read();
+    if (isEnd) return;
+    done += value.length;
+    onReceived(done, all);
+  }
 }
 
 /** Reports an error if the instance cannot be made. Emscripten's script would wait for it forever. */

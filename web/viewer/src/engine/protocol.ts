@@ -49,4 +49,6 @@ export type Request = { [Name in keyof Calls]: { id: number; name: Name; args: C
 export type Answer =
   | { id: number; result: Calls[keyof Calls]["result"] }
   | { id: number; error: EngineError; isDead: boolean }
-  | { id: number; step: string; done: number };
+  | { id: number; step: string; done: number }
+  /** Bytes of the first module, of how many; before any request. */
+  | { received: number; all: number };

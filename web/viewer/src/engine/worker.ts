@@ -12,7 +12,7 @@ const idleMilliseconds = 700;
 
 const onProgress = (step: string, done: number) => post({ id: current, step, done });
 /** The module in use. */
-let loaded = loadModule("view", onProgress);
+let loaded = loadModule("view", onProgress, (received, all) => post({ received, all }));
 // The code that awaits it handles a rejection; an unhandled one must not end the worker.
 loaded.catch(() => undefined);
 let isWhole = false;

@@ -24,6 +24,7 @@ const kRows = [
   ["keyTree", "keyTreeHow"],
   ["keyActions", "keyActionsHow"],
   ["keyTable", "keyTableHow"],
+  ["keyFour", "keyFourHow"],
   ["walk", "walkHint"],
   ["keyLeave", "keyLeaveHow"],
 ] as const;

@@ -40,6 +40,7 @@ const kPaths = {
   up: "M12 19V5M6 11l6-6 6 6",
   only: "M12 15a3 3 0 1 0 0-6 3 3 0 0 0 0 6ZM4 4l3 3M20 4l-3 3M4 20l3-3M20 20l-3-3",
   table: "M3 5h18v14H3ZM3 10h18M3 14.500h18M9 5v14",
+  four: "M3 4h18v16H3ZM12 4v16M3 12h18",
   menu: "M4 7h16M4 12h16M4 17h16",
   parallel: "M4 8l8-5 8 5v8l-8 5-8-5ZM4 8l8 5 8-5M12 13v8",
   rectangle: "M3 8V4h4M10 4h4M17 4h4v4M21 11v2M3 11v4M3 17v3h4M10 20h2M14 14l7 3-3 1-1 3Z",
