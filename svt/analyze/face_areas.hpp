@@ -27,15 +27,18 @@ struct CountedFaces {
     FaceKind kind = FaceKind::Roof;
     std::optional<double> area;  ///< m2; empty: unknown, it has no mesh
 };
-/// The labels of each kind in an extent, ascending. Each face of the model is one of one label. Windows and doors of rooms
-/// count only if the extent has no others: a window often has a surface in the room, too.
+/// The labels of each kind in an extent, ascending. Each face of the model is one of one label.
 /// \param extent  ascending, see Extents
 /// \param areas   of meshAreas()
 [[nodiscard]] std::vector<CountedFaces> countedFaces(const volume::LabelTable& labels,
                                                      std::span<const std::uint32_t> extent,
                                                      std::span<const std::optional<double>> areas);
 
-/// m2 of the faces of each kind in an extent, by FaceKind. Empty: unknown, because the extent has no label of this kind,
+/// Removes the windows and doors of rooms from the faces of one feature that also has others: a window often has a surface
+/// in the room, too.
+void dropOpeningsOfRooms(const volume::LabelTable& labels, std::vector<CountedFaces>& counted);
+
+/// m2 of the faces of each kind in an extent, by FaceKind, without those that dropOpeningsOfRooms() removes. Empty: unknown, because the extent has no label of this kind,
 /// or one without a mesh. The parameters are those of countedFaces().
 [[nodiscard]] std::array<std::optional<double>, 5> faceAreas(const volume::LabelTable& labels,
                                                              std::span<const std::uint32_t> extent,

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -111,20 +112,26 @@ void FeatureSums::add(const volume::SemanticVolume& volume, std::span<const city
         sumOf[l]->counted += own[l].countedVolume;
     }
     addAreas(table, rows, extents, own, sumOf);
-    if (hasFaces_) addFaces(table, meshAreas, sumOf);
+    if (hasFaces_) addFaces(table, meshAreas, finest, sumOf);
 }
 
 void FeatureSums::addFaces(const volume::LabelTable& table, std::span<const std::optional<double>> meshAreas,
-                           const std::vector<Sum*>& sumOf) {
+                           std::span<const std::uint32_t> finest, const std::vector<Sum*>& sumOf) {
     std::vector<std::uint32_t> all;
     for (std::uint32_t l = 0; l < sumOf.size(); ++l)
         if (sumOf[l] != nullptr) all.push_back(l);
-    for (const analyze::CountedFaces& faces : analyze::countedFaces(table, all, meshAreas)) {
-        Sum& sum = *sumOf[faces.label];
-        const auto kind = static_cast<std::size_t>(faces.kind);
-        withoutMesh_ += !faces.area;
-        (faces.area ? sum.hasFaces : sum.hasUnknownFaces)[kind] = true;
-        sum.faces[kind] += faces.area.value_or(0);
+    std::map<std::uint32_t, std::vector<analyze::CountedFaces>> countedOf;  // by feature
+    for (const analyze::CountedFaces& faces : analyze::countedFaces(table, all, meshAreas))
+        countedOf[finest[faces.label]].push_back(faces);
+    for (auto& [feature, counted] : countedOf) {
+        analyze::dropOpeningsOfRooms(table, counted);
+        for (const analyze::CountedFaces& faces : counted) {
+            Sum& sum = *sumOf[faces.label];
+            const auto kind = static_cast<std::size_t>(faces.kind);
+            withoutMesh_ += !faces.area;
+            (faces.area ? sum.hasFaces : sum.hasUnknownFaces)[kind] = true;
+            sum.faces[kind] += faces.area.value_or(0);
+        }
     }
 }
 

@@ -72,7 +72,7 @@ private:
                   const std::vector<Sum*>& sumOf);
     // Each face counts once, with the values of the finest feature that contains it.
     void addFaces(const volume::LabelTable& table, std::span<const std::optional<double>> meshAreas,
-                  const std::vector<Sum*>& sumOf);
+                  std::span<const std::uint32_t> finest, const std::vector<Sum*>& sumOf);
 
     std::vector<std::string> keys_;
     bool hasFaces_ = false;

@@ -60,24 +60,28 @@ std::vector<CountedFaces> countedFaces(const volume::LabelTable& table, std::spa
         if (kind && !isPartOfCounted(table, label, *kind, extent, areas))
             counted.push_back({label, *kind, areas[label]});
     }
-    // A window has a face towards the room, too.
+    return counted;
+}
+
+void dropOpeningsOfRooms(const volume::LabelTable& table, std::vector<CountedFaces>& counted) {
     for (const FaceKind kind : {FaceKind::Window, FaceKind::Door}) {
-        const auto isOfRoom = [&](const CountedFaces& faces) {
-            return faces.kind == kind && isInRoom(table, faces.label);
-        };
         const auto isOutside = [&](const CountedFaces& faces) {
             return faces.kind == kind && !isInRoom(table, faces.label);
         };
+        const auto isOfRoom = [&](const CountedFaces& faces) {
+            return faces.kind == kind && isInRoom(table, faces.label);
+        };
         if (std::any_of(counted.begin(), counted.end(), isOutside)) std::erase_if(counted, isOfRoom);
     }
-    return counted;
 }
 
 std::array<std::optional<double>, 5> faceAreas(const volume::LabelTable& table, std::span<const std::uint32_t> extent,
                                                std::span<const std::optional<double>> areas) {
     std::array<std::optional<double>, 5> sums;
     std::array<bool, 5> isUnknown{};
-    for (const CountedFaces& faces : countedFaces(table, extent, areas)) {
+    std::vector<CountedFaces> counted = countedFaces(table, extent, areas);
+    dropOpeningsOfRooms(table, counted);
+    for (const CountedFaces& faces : counted) {
         const auto place = static_cast<std::size_t>(faces.kind);
         if (faces.area)
             sums[place] = sums[place].value_or(0) + *faces.area;

@@ -44,15 +44,22 @@ export class Download extends Observable {
     const reader = body.getReader();
     const parts: Uint8Array<ArrayBuffer>[] = [];
     let size = 0,
-      told = -Infinity;
-    for (;;) {
-      const { done, value } = await reader.read();
-      if (done) break;
-      parts.push(value as Uint8Array<ArrayBuffer>);
-      size += value.length;
-      if (performance.now() - told <= kEvery) continue;
-      told = performance.now();
+      timer: ReturnType<typeof setTimeout> | undefined;
+    const report = (): void => {
+      timer = undefined;
       this.done = size;
+    };
+    try {
+      for (;;) {
+        const { done, value } = await reader.read();
+        if (done) break;
+        parts.push(value as Uint8Array<ArrayBuffer>);
+        size += value.length;
+        // Also if no further bytes come.
+        timer ??= setTimeout(report, kEvery);
+      }
+    } finally {
+      clearTimeout(timer);
     }
     this.done = this.all = size;
     return new Blob(parts).arrayBuffer();
