@@ -127,7 +127,7 @@ public:
         if (!volume_) volume_ = compare::makeDifferenceVolume(compared_.was, compared_.is, compared_.comparison);
         return *volume_;
     }
-    // Null: there is no volume, for the reason that reason() states.
+    // Null if the states have no common volume; reason() gives the cause.
     [[nodiscard]] ChangePictures* pictures() {
         if (!pictures_ && volume()) pictures_ = std::make_unique<ChangePictures>(*volume(), threads_);
         return pictures_.get();
@@ -173,8 +173,10 @@ Result<void> writeOutput(const std::filesystem::path& output, const Compared& co
     } else if (ending == ".csv") {
         SVT_DO(writeFileAtomically(output, writers::makeCsv(comparisonTable(compared, true))));
     } else if (ending == ".html") {
-        ChangePictures* pictures = compared.comparison.isDifferent() ? difference.pictures() : nullptr;
-        SVT_TRY(page, comparisonPage(compared, pictures, pictures == nullptr ? difference.reason() : std::string()));
+        const bool isDrawn = compared.comparison.isDifferent();
+        ChangePictures* pictures = isDrawn ? difference.pictures() : nullptr;
+        const std::string reason = isDrawn && pictures == nullptr ? difference.reason() : std::string();
+        SVT_TRY(page, comparisonPage(compared, pictures, reason));
         SVT_DO(writeFileAtomically(output, *page));
     } else if (ending == ".bcf") {
         SVT_DO(writeTopics(output, compared, difference));

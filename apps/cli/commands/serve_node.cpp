@@ -26,7 +26,7 @@ Result<int> runServe(const ServeArguments& arguments) {
     // Outlives main(); Node.js removes it when the server stops.
     static const PrivateFolder folder;
     if (folder.path().empty())
-        return Error(Code::CannotWrite, "there is no folder for temporary files; set TMPDIR to one");
+        return Error(Code::CannotWrite, "cannot create a folder for temporary files; set TMPDIR to a writable folder");
     SVT_DO(serve::writeSite(*site, folder.path()));
     Json orders;
     orders["folder"] = folder.path().string();

@@ -122,7 +122,7 @@ illustrate::Scene ChangePictures::scene() const {
 }
 
 // A query for spaces that are not drawn. \param unless  a query; empty: all spaces
-std::string ChangePictures::keptSpaces(std::string_view unless) const {
+std::string ChangePictures::hiddenSpaces(std::string_view unless) const {
     std::string query;
     for (const std::string& name : spaceClasses_)
         query += fmt::format("{}class=\"{}\"", query.empty() ? "" : " or ", name);
@@ -146,7 +146,7 @@ Result<std::vector<std::byte>> ChangePictures::drawStorey(const ChangedStorey& s
         pass.keep = fmt::format("z>{:.4f} and z<{:.4f}", (*storey.heights)[0] + shift, (*storey.heights)[1] + shift);
     }
     pass.show = {"all"};
-    if (!spaceClasses_.empty()) pass.hide = {keptSpaces(hasSolids ? "" : "not change=same")};
+    if (!spaceClasses_.empty()) pass.hide = {hiddenSpaces(hasSolids ? "" : "not change=same")};
     scene.camera.preset = isPlan ? "top" : "iso";
     scene.camera.isParallel = isPlan;
     return draw(scene);
@@ -164,7 +164,7 @@ Result<std::vector<std::byte>> ChangePictures::drawView(Vec3d eye, Vec3d target,
                 shown += fmt::format("{}id=\"{}{}\"", shown.empty() ? "" : " or ", id, suffix);
     illustrate::ScenePass& pass = scene.passes.front();
     pass.show = {"all"};
-    if (!spaceClasses_.empty()) pass.hide = {keptSpaces(shown)};
+    if (!spaceClasses_.empty()) pass.hide = {hiddenSpaces(shown)};
     scene.camera.eye = eye - difference_.grid.origin();
     scene.camera.target = target - difference_.grid.origin();
     scene.camera.fieldOfView = fieldOfViewDegrees;

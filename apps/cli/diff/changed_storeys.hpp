@@ -53,7 +53,7 @@ public:
 
 private:
     [[nodiscard]] illustrate::Scene scene() const;
-    [[nodiscard]] std::string keptSpaces(std::string_view unless) const;
+    [[nodiscard]] std::string hiddenSpaces(std::string_view unless) const;
     [[nodiscard]] Result<std::vector<std::byte>> draw(const illustrate::Scene& scene);
 
     const volume::SemanticVolume& difference_;

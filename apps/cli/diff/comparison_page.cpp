@@ -231,7 +231,7 @@ Result<std::string> storeySections(const Compared& compared, std::span<const std
     if (pictures != nullptr)
         text += kColors;
     else
-        text += fmt::format("<p>There are no pictures: {}.</p>\n", xmlAttribute(noPictures));
+        text += fmt::format("<p>This page has no pictures: {}.</p>\n", xmlAttribute(noPictures));
     // The storeys with the most changed space have pictures.
     std::vector<std::size_t> order(storeys.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

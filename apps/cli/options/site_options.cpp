@@ -30,7 +30,7 @@ Result<FileBytes> built(const fs::path& input, const pipeline::BuildOptions& bui
     SVT_TRY(volume, loadVolume(input, build, progress.get(), diagnostics));
     const PrivateFolder folder;
     if (folder.path().empty())
-        return Error(Code::CannotWrite, "there is no folder for temporary files; set TMPDIR to one");
+        return Error(Code::CannotWrite, "cannot create a folder for temporary files; set TMPDIR to a writable folder");
     const fs::path file = folder.path() / "model.svt";
     SVT_DO(volume::writeSvt(*volume, file));
     return FileBytes::map(file);  // no other program uses the file

@@ -173,7 +173,7 @@ Error ofTemporaryFile(const Error& error) {
 Result<fs::path> Transfer::newFolder(std::string_view name) {
     if (!folder_) folder_.emplace();
     if (folder_->path().empty())
-        return Error(Code::CannotWrite, "there is no folder for temporary files; set TMPDIR to one");
+        return Error(Code::CannotWrite, "cannot create a folder for temporary files; set TMPDIR to a writable folder");
     const fs::path folder = folder_->path() / fmt::format("{}{}", name, folders_++);
     std::error_code failed;
     if (!fs::create_directory(folder, failed))

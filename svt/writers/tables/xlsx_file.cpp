@@ -245,7 +245,7 @@ Result<std::string> makeXlsx(std::span<const XlsxSheet> sheets, const std::strin
     if (!xlsx) return xlsx.error();
     const PrivateFolder folder;
     if (folder.path().empty())
-        return Error(Code::CannotWrite, "there is no folder for temporary files; set TMPDIR to one");
+        return Error(Code::CannotWrite, "cannot create a folder for temporary files; set TMPDIR to a writable folder");
     const std::filesystem::path file = folder.path() / "book.xlsx";
     {
         Workbook book(*xlsx, file, folder.path().string());

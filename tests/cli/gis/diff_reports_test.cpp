@@ -179,7 +179,7 @@ TEST_F(DiffReports, SayWhyTheyHaveNoPictures) {
     EXPECT_NE(result.err.find("c.bcf has no pictures"), std::string::npos) << result.err;
     const std::string page = readText(folder / "r.html");
     EXPECT_TRUE(picturesIn(page).empty());
-    EXPECT_NE(page.find("There are no pictures"), std::string::npos);
+    EXPECT_NE(page.find("This page has no pictures"), std::string::npos);
     EXPECT_NE(page.find("18.0000"), std::string::npos);  // meshes need no common samples
     EXPECT_EQ(readText(folder / "c.bcf").find("snapshot"), std::string::npos);
 }
