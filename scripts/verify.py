@@ -4,9 +4,9 @@
     scripts/verify.py [CHECK...]      the checks named, else all; those that passed on the same tree are not run again
     scripts/verify.py --again ...     runs them even if they passed on the same tree
     scripts/verify.py --list          the checks, the last result of each, and the check whose turn is next
-    scripts/verify.py --turn [--minutes N]
-                                      the heavy check whose last run is longest ago, then further ones while their expected
-                                      time fits into N minutes of wall-clock time since the call
+    scripts/verify.py --turn --minutes N
+                                      heavy checks whose expected time fits into N minutes since the call, those that ran
+                                      longest ago first; ends a check that is still running after N minutes and names it
     scripts/verify.py --record        copies the results into tests/checks.json and the table of docs/dev/testing.md
 
 A check is a name of CHECKS below, or a prefix of names: `asan` means all parts of it. A check that cannot run is a failure.
@@ -20,10 +20,12 @@ import datetime
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
 import time
+from typing import TextIO
 
 os.environ["SVT_NO_CONFIG"] = "1"  # files with defaults of the user do not change results
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -38,7 +40,7 @@ TABLE_BEGIN, TABLE_END = "<!-- checks: begin -->\n", "<!-- checks: end -->\n"
 FOLDERS = {
     "data": "core http plane record image model crs readers mesh validate",
     "volumes": "volume volume_readers voxelize analyze samples serve",
-    "pictures": "quantities render render_gl drawing compare illustrate writers",
+    "pictures": "quantities render render_gl fields field_readers simulate drawing compare illustrate writers",
     "chains": "pipeline city frontend",
     "command": "cli",
 }
@@ -66,7 +68,7 @@ CHECKS = {
         f"analyzer/{part}": Check(f"scripts/setup.sh checks && scripts/tidy.py --analyzer --only '{pattern}'", 20)
         for part, pattern in {
             "library": "/svt/(core|plane|record|image|model|crs|readers|mesh|validate"
-            "|volume|volume_readers|voxelize|analyze|quantities|render)/",
+            "|volume|volume_readers|voxelize|analyze|quantities|render|fields|field_readers|simulate)/",
             "programs": "/svt/(render_gl|drawing|compare|illustrate|writers|samples|serve|pipeline|city|frontend)/"
             "|/(apps|python)/",
         }.items()
@@ -133,20 +135,35 @@ def turns() -> list[str]:
     return sorted((name for name in order if CHECKS[name].is_heavy), key=turn)
 
 
-def run(name: str, tree: str) -> dict:
-    """Runs a check, keeps its result, and returns it."""
+def exit_code_of(command: str, output: TextIO, seconds: float | None) -> int | None:
+    """Runs a command of bash; none if it was still running after some seconds and was ended with all its processes."""
+    process = subprocess.Popen(
+        ["bash", "-euo", "pipefail", "-c", command],
+        cwd=ROOT,
+        stdin=subprocess.DEVNULL,
+        stdout=output,
+        stderr=subprocess.STDOUT,
+        start_new_session=True,
+    )
+    try:
+        return process.wait(seconds)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        return None
+
+
+def run(name: str, tree: str, seconds: float | None = None) -> dict | None:
+    """Runs a check, keeps its result, and returns it; none, and nothing kept, if it was still running after some seconds."""
     log = WORK / f"{name.replace('/', '-')}.log"
     log.parent.mkdir(parents=True, exist_ok=True)
     print(f"verify: {name} (log: {log.relative_to(ROOT)})", flush=True)
     start = time.monotonic()
     with log.open("w", encoding="utf-8") as output:
-        code = subprocess.run(
-            ["bash", "-euo", "pipefail", "-c", CHECKS[name].command],
-            cwd=ROOT,
-            stdin=subprocess.DEVNULL,
-            stdout=output,
-            stderr=subprocess.STDOUT,
-        ).returncode
+        code = exit_code_of(CHECKS[name].command, output, seconds)
+    if code is None:
+        print(f"verify: {name} was ended: it was still running after {round(time.monotonic() - start)} s", flush=True)
+        return None
     result = {
         "commit": git("describe", "--always", "--dirty", "--abbrev=12"),
         "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M:%S"),
@@ -219,19 +236,20 @@ def chosen(names: list[str]) -> list[str]:
 
 
 def take_turns(minutes: float, tree: str) -> bool:
-    """Runs the next heavy check, and further ones that fit into the time; true if all passed."""
-    order = turns()
-    start, passed, count = time.monotonic(), True, 0
-    for name in order:
+    """Runs the next heavy checks that fit into the time; true if none failed."""
+    start, passed, waiting = time.monotonic(), True, []
+    for name in turns():
         left = minutes - (time.monotonic() - start) / 60
         last = newest(SHARED, LOCAL).get(name)
         # A check that failed may have ended early.
         expected = last["seconds"] / 60 * 1.3 if last and last["result"] == "passed" else CHECKS[name].minutes
-        if count > 0 and expected > left:
-            break
-        passed = run(name, tree)["result"] == "passed" and passed
-        count += 1
-    print(f"verify: the next turn is {turns()[0]}")
+        result = run(name, tree, left * 60) if expected <= left else None
+        if result is None:
+            waiting.append(name)
+        else:
+            passed = result["result"] == "passed" and passed
+    if waiting:
+        print(f"verify: no time was left for {', '.join(waiting)}; --turn runs them first next time")
     return passed
 
 
@@ -268,7 +286,8 @@ def main() -> int:
         if not arguments.again and last and last["tree"] == tree and last["result"] == "passed":
             print(f"verify: {name} has passed on this tree")
             continue
-        passed = run(name, tree)["result"] == "passed" and passed
+        result = run(name, tree)
+        passed = result is not None and result["result"] == "passed" and passed
     report(results_in(LOCAL), tree)
     return 0 if passed else 1
 
