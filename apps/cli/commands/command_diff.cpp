@@ -1,4 +1,5 @@
 #include <apps/cli/city/city_input.hpp>
+#include <apps/cli/diff/city_comparison.hpp>
 #include <apps/cli/diff/comparison_page.hpp>
 #include <apps/cli/diff/comparison_reports.hpp>
 #include <apps/cli/diff/comparison_topics.hpp>
@@ -187,11 +188,51 @@ Result<void> writeOutput(const std::filesystem::path& output, const Compared& co
     return {};
 }
 
-Result<int> runDiff(const DiffArguments& arguments) {
+// Two cities have rows only: no pictures and no common volume.
+Result<int> runCityDiff(const DiffArguments& arguments) {
     for (const std::filesystem::path& input : {arguments.was, arguments.is})
-        if (isCity(input))
+        if (!isCity(input))
             return Error(Code::BadArgument,
-                         "'" + input.string() + "' is a city; compare parts of it (svt city extract)");
+                         "'" + input.string() + "' is not a city, and the other input is one; compare two cities");
+    if (arguments.align != Align::None)
+        return Error(Code::BadArgument, "--align moves single models; cities are compared in their places");
+    for (const std::filesystem::path& output : arguments.outputs)
+        if (const std::string ending = endingOf(output); ending != ".csv" && ending != ".json")
+            return Error(Code::BadArgument, "'" + output.string() +
+                                                "': two cities can be written as .csv and .json; for pages, issues and "
+                                                "volumes compare parts of them (svt city extract)");
+    const TerminalProgress progress;
+    compare::CompareOptions options = arguments.options;
+    options.threads = arguments.build.threads;
+    options.progress = progress.get();
+    SVT_TRY(was, city::City::open(arguments.was));
+    SVT_TRY(is, city::City::open(arguments.is));
+    SVT_TRY(comparison, compareCities(*was, *is, options));
+    if (was->crsName().empty() || is->crsName().empty())
+        note("the reference system of a city is unknown; the coordinates are compared as they are");
+    if (comparison->changedTiles > 0 && !comparison->hasMeshes)
+        note("the tiles have no meshes, so voxels decide; changes smaller than a voxel may be missing");
+    if (comparison->apart > 0)
+        note(
+            fmt::format("{} buildings that moved to another tile have two rows, removed and added", comparison->apart));
+    for (const std::filesystem::path& output : arguments.outputs)
+        SVT_DO(writeFileAtomically(
+            output, endingOf(output) == ".csv"
+                        ? writers::makeCsv(comparison->rows)
+                        : cityComparisonJson(*comparison).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"));
+    TerminalProgress::hide();
+    if (arguments.json)
+        print(cityComparisonJson(*comparison));
+    else if (arguments.csv)
+        print(comparison->rows, TableFormat::Csv);
+    else if (comparison->isDifferent())
+        print(comparison->rows, TableFormat::Text);
+    if (!arguments.json && !arguments.csv) summarize(citySummary(*comparison));
+    return comparison->isDifferent() ? kDifferent : kDone;
+}
+
+Result<int> runDiff(const DiffArguments& arguments) {
+    if (isCity(arguments.was) || isCity(arguments.is)) return runCityDiff(arguments);
     const TerminalProgress progress;
     SVT_TRY(states, loadStates(arguments, progress.get()));
     volume::SemanticVolume &was = states->was, &is = states->is;
@@ -220,9 +261,9 @@ Members<DiffArguments> membersOf(const DiffArguments*) noexcept {
     using All = DiffArguments;
     using compare::CompareOptions;
     static constexpr Member<All> kMembers[] = {
-        member<&All::was>("old", "the old state: a .svt or a model file",
+        member<&All::was>("old", "the old state: a .svt, a model file or a city",
                           {.value = "OLD", .isRequired = true, .file = FileUse::ModelOrVolume}),
-        member<&All::is>("new", "the new state: a .svt or a model file, also in another format",
+        member<&All::is>("new", "the new state: a .svt or a model file, also in another format, or a city",
                          {.value = "NEW", .isRequired = true, .file = FileUse::ModelOrVolume}),
         member<&All::outputs>(
             "-o,--output",

@@ -17,6 +17,7 @@ Result<void> checkCityScene(const illustrate::Scene& scene) {
     const auto isIn = [&](auto has) { return std::ranges::any_of(scene.passes, has); };
     const std::pair<bool, const char*> needs[] = {
         {scene.explode != 0, "explode"},
+        {scene.field.has_value(), "a field (--field)"},
         {!scene.insets.empty(), "insets"},
         {isIn([](const auto& pass) { return !pass.lines.empty(); }), "lines of a pass (--wireframe)"},
         {isIn([](const auto& pass) { return !pass.meshes.empty(); }), "meshes of a pass (--vectors)"}};

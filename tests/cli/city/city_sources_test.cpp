@@ -1,5 +1,6 @@
 // Cities of files with other reference systems, dates and ids than expected, and of files that change.
 #include "../run_command.hpp"
+#include "box_city.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,25 +10,13 @@
 namespace svt::test {
 namespace {
 
-// Boxes of CityJSON in a row from `east` on, the ids `name` and a number.
+// Boxes in a row from `east` on, the ids `name` and a number.
 std::string boxesOf(const std::string& crs, const std::string& name, int count, int east, int north,
                     const std::string& attributes = "") {
-    std::string text = R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},)" +
-                       (crs.empty() ? std::string() : R"("metadata":{"referenceSystem":")" + crs + R"("},)") +
-                       R"("CityObjects":{},"vertices":[]})" + "\n";
-    for (int n = 0; n < count; ++n) {
-        std::string corners;
-        for (const int z : {0, 10})
-            for (const auto& [i, j] : {std::pair{0, 0}, {20, 0}, {20, 20}, {0, 20}})
-                corners += fmt::format("{}[{},{},{}]", corners.empty() ? "" : ",", east + 40 * n + i, north + j, z);
-        text +=
-            fmt::format(R"({{"type":"CityJSONFeature","id":"{0}{1}","CityObjects":{{"{0}{1}":{{"type":"Building",{2})"
-                        R"("geometry":[{{"type":"Solid","lod":"1","boundaries":[[[[0,3,2,1]],[[4,5,6,7]],[[0,1,5,4]],)"
-                        R"([[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]]]}}]}}}},"vertices":[{3}]}})",
-                        name, n, attributes, corners);
-        text += "\n";
-    }
-    return text;
+    std::vector<BoxBuilding> buildings;
+    for (int n = 0; n < count; ++n)
+        buildings.push_back({fmt::format("{}{}", name, n), east + 40 * n, north, 10, attributes});
+    return boxCity(crs, buildings);
 }
 
 class CitySources : public ::testing::Test {
@@ -57,8 +46,8 @@ TEST_F(CitySources, ACompoundCrsKeepsFilesOfItsHorizontalPart) {
     EXPECT_EQ(planned.exitCode, 0) << planned.toString();
     EXPECT_NE(planned.out.find("12 features"), std::string::npos) << planned.toString();
     EXPECT_NE(planned.out.find(" 0 left out"), std::string::npos) << planned.toString();
-    const auto json = nlohmann::json::parse(readText(folder / "town/plan/plan.json"));
-    EXPECT_EQ(json.at("crs"), 28992);
+    const auto planned = nlohmann::json::parse(readText(folder / "town/plan/plan.json"));
+    EXPECT_EQ(planned.at("crs"), 28992);
 }
 
 TEST_F(CitySources, TheGivenCrsStays) {
