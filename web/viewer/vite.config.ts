@@ -3,6 +3,7 @@ import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
 import { billOfMaterialsPlugin } from "./sbom_plugin";
 import { template } from "./src/texts";
+import { lateTemplate } from "./src/late_texts";
 import { toolTemplate } from "./src/tool_texts";
 
 // Servers that compress a module do not announce its size.
@@ -36,7 +37,7 @@ export default defineConfig({
         this.emitFile({
           type: "asset",
           fileName: "languages/template.json",
-          source: `${JSON.stringify({ texts: { ...template(), ...toolTemplate() }, classes: {} }, null, 1)}\n`,
+          source: `${JSON.stringify({ texts: { ...template(), ...toolTemplate(), ...lateTemplate() }, classes: {} }, null, 1)}\n`,
         });
       },
     },

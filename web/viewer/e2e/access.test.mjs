@@ -112,6 +112,13 @@ describe("access", () => {
         await visit.page.getByRole("button", { name: "Zeigen oder verbergen: Teile" }).click();
         found.push(...(await findings()).map((finding) => `parts: ${finding}`));
       }
+      // The row of a hidden object, selected and not; then the mode in which taps add.
+      for (const state of ["s.view.hideSelected(true)", "s.selection.select([])", "s.selection.isMore = true"]) {
+        await inPage(state);
+        await visit.page.waitForTimeout(100);
+        assert.ok((await visit.page.locator(".item.gone .name").count()) > 0, state);
+        found.push(...(await findings()).map((finding) => `${state}: ${finding}`));
+      }
       assert.deepEqual(found, []);
     });
 

@@ -28,6 +28,7 @@ export interface Action {
 /** The page, as actions need it. */
 export interface ActionHost {
   session: Session;
+  /** Opens or closes a tool. The focus goes to its first control, or to the cross that takes points. */
   useTool(tool: Tool): void;
   /** Opens a tool and presses one of its controls. */
   pressInTool(tool: Tool, selector: string): void;
@@ -194,6 +195,7 @@ function toolActions(host: ActionHost): Action[] {
     press("sun", () => toolText("sun"), "sun", "look", "#sun"),
     press("next-view", () => toolText("nextView"), "bookmark", "share", "#next-view"),
     press("sheets", () => t("sheets"), "section", "section", "#draw-sheets"),
+    press("print-sheets", () => `${t("sheets")}: ${toolText("print")}`, "section", "section", "#print-sheets"),
     press("keep-view", () => t("keepView"), "bookmark", "share", "#keep-view"),
     press("copy-link", () => t("copyLink"), "copy", "share", "#copy-link"),
     press("copy-command", () => t("copyCommand"), "code", "share", "#copy-command"),

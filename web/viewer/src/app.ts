@@ -34,6 +34,7 @@ import { leaveCustom } from "./tools/share_tool";
 import "./tools/views_tool";
 import { setWalking } from "./tools/views_tool";
 import { movedText, number, percentText, t } from "./texts";
+import { toolText } from "./tool_texts";
 import { movedByArrow } from "./ui/arrow_keys";
 import { icon, type IconName } from "./ui/icons";
 import { controls, Part } from "./ui/part";
@@ -136,6 +137,7 @@ export class App extends Part implements ActionHost {
     if (view.isWalking && !this.wasWalking) this.picture?.focus();
     if (view.aim) void this.loaded("svt-aim", () => import("./tools/aim_layer"));
     else if (this.wasAiming) this.picture?.focus();
+    if (view.isWalking && isTouch()) void this.loaded("svt-walk-pad", () => import("./tools/walk_pad"));
     this.wasWalking = view.isWalking;
     this.wasAiming = view.aim !== null;
     this.endMessage();
@@ -253,7 +255,7 @@ export class App extends Part implements ActionHost {
   private sheets() {
     const { session } = this;
     const sheet = (title: string, close: () => void, content: unknown) => html`<section class="sheet" aria-label=${title}>
-      <div class="bar"><h2>${title}</h2><button class="bare" aria-label=${t("close")} @click=${close}>${icon("close", 18)}</button></div><div>${content}</div></section>`;
+      <div class="bar"><h2>${title}</h2><button class="bare" aria-label=${t("close")} @click=${close}>${icon("down")}</button></div><div>${content}</div></section>`;
     if (this.isTreeShown) return sheet(t("panelTree"), () => (this.isTreeShown = false), html`<svt-tree .session=${session}></svt-tree>`);
     if (this.isSelectionShown)
       return sheet(
@@ -278,12 +280,14 @@ export class App extends Part implements ActionHost {
         session.volume.info
           ? html`
         ${session.volume.isServerOnly ? nothing : html`<svt-view-cube .session=${session}></svt-view-cube>`}
-        ${view.aim ? html`<svt-aim .session=${session}></svt-aim>` : nothing}
+        ${view.aim ? html`<svt-aim .session=${session} .tools=${this.pictureTools}></svt-aim>` : nothing}
+        ${view.isWalking && isTouch() ? html`<svt-walk-pad .session=${session}></svt-walk-pad>` : nothing}
         <div class="corner">
           ${view.now.custom ? html`<div class="note">${t("customScene")}<button @click=${() => view.set(leaveCustom(view.state))}>${t("leaveCustom")}</button></div>` : nothing}
           ${session.volume.isServerOnly ? html`<div class="note">${t("serverPictures")}</div>` : nothing}
           ${session.model.refining.isCoarse ? this.coarse() : nothing}
           ${this.missingTiles()}
+          ${session.selection.isMore ? html`<div class="note" id="more">${toolText("moreNow")}<button @click=${() => (session.selection.isMore = false)}>${toolText("moreEnd")}</button></div>` : nothing}
           ${picture.moved.length && view.now.sections.length ? html`<div class="note" id="moved-plane">${movedText(picture.moved)}</div>` : nothing}
           ${view.isLegendShown ? html`<svt-legend .session=${session}></svt-legend>` : nothing}
         </div>
@@ -355,7 +359,7 @@ export class App extends Part implements ActionHost {
         { tool, icon: name, key },
         n,
       ) => html`<button id="tool-${tool}" tabindex=${n === this.dockAt ? 0 : -1} class=${used[tool] ? "used" : ""} aria-expanded=${view.tool === tool} aria-keyshortcuts=${key}
-        title="${t(tool)} (${key.toUpperCase()})" @click=${() => this.useTool(tool)}>${icon(name, 22)}<span>${t(tool)}</span></button>`,
+        title="${t(tool)} (${key.toUpperCase()})" @click=${(e: MouseEvent) => (e.detail ? this.toggleTool(tool) : this.useTool(tool))}>${icon(name, 22)}<span>${t(tool)}</span></button>`,
     )}</div>`;
   }
 
@@ -382,24 +386,41 @@ export class App extends Part implements ActionHost {
       share: html`<svt-share-tool .session=${session}></svt-share-tool>`,
     }[tool];
     return html`<section class="card" id="card" aria-label=${t(tool)}>
-      <div class="bar"><h2>${t(tool)}</h2><button class="bare" aria-label=${t("close")} @click=${() => this.useTool(tool)}>${icon("close", 18)}</button></div>${content}</section>`;
+      <div class="bar"><h2>${t(tool)}</h2><button class="bare" aria-label=${t("close")} @click=${() => this.toggleTool(tool)}>${icon("close", 18)}</button></div>${content}</section>`;
   }
 
   useTool(tool: Tool): void {
+    this.toggleTool(tool);
+    void this.enterTool();
+  }
+
+  /** The focus goes to the open tool: for measuring, to a cross over the picture. */
+  private async enterTool(): Promise<void> {
+    const { view } = this.session;
+    const { tool } = view;
+    if (tool === "measure") view.aim = "point";
+    await this.updateComplete;
+    if (!tool) return this.picture?.focus();
+    const part = this.renderRoot.querySelector<Part>(`#card svt-${tool}-tool`);
+    await part?.updateComplete;
+    if (!view.aim) part?.renderRoot.querySelector<HTMLElement>("svt-bookmark-list, button, input, select")?.focus();
+  }
+
+  private toggleTool(tool: Tool): void {
     const { session } = this;
+    if (session.view.aim === "point") session.view.aim = null;
     session.view.tool = session.view.tool === tool ? null : tool;
     if (session.view.tool && this.isNarrow) this.isTreeShown = this.isSelectionShown = this.isTableShown = false;
     if (session.view.tool === "lens" && session.view.now.effect !== "lens")
       session.view.set({ effect: "lens", lens: { ...session.view.now.lens, pinned: false } });
-    if (session.view.tool === "section" && !session.view.now.sections.length && !session.volume.info?.storeys.length) {
-      void this.updateComplete.then(() => this.renderRoot.querySelector<HTMLElement>("#card button, #card input")?.focus());
-    }
   }
 
   /** Closes a tool, and ends its automatic actions: a lens that follows the mouse. */
   private endTool(tool: Tool): void {
     const { state } = this.session.view;
-    this.useTool(tool);
+    const hadFocus = this.renderRoot.querySelector("#card:focus-within");
+    this.toggleTool(tool);
+    if (hadFocus) this.picture?.focus();
     if (tool === "lens" && state.effect === "lens" && !state.lens.pinned) this.session.view.set({ effect: "none" });
   }
 
@@ -532,7 +553,13 @@ export class App extends Part implements ActionHost {
     else this.picture?.focus();
   }
 
-  private readonly pickedInPicture = ({ detail: { pick } }: PickEvent): void => {
+  private readonly pickedInPicture = (event: PickEvent): void => {
+    const { pick } = event.detail;
+    const { selection } = this.session;
+    if (selection.isMore) {
+      event.preventDefault();
+      selection.picked(pick, true);
+    }
     if (pick) this.renderRoot.querySelector<SectionPanes>("svt-section-panes")?.moveTo?.(pick.point);
   };
 
@@ -543,11 +570,11 @@ export class App extends Part implements ActionHost {
   }
 
   pressInTool(tool: Tool, selector: string): void {
-    if (this.session.view.tool !== tool) this.useTool(tool);
+    if (this.session.view.tool !== tool) this.toggleTool(tool);
     void this.updateComplete.then(async () => {
       const part = this.renderRoot.querySelector<Part>(`#card svt-${tool}-tool`);
       await part?.updateComplete;
-      for (const root of part ? [part.renderRoot, ...nestedRoots(part.renderRoot)] : []) root.querySelector<HTMLElement>(selector)?.click();
+      for (const root of part ? [part.renderRoot, ...nestedRoots(part.renderRoot)] : []) pressed(root.querySelector<HTMLElement>(selector));
     });
   }
 
@@ -558,8 +585,10 @@ export class App extends Part implements ActionHost {
 
   private leave(typing: HTMLElement | null): void {
     const { session } = this;
-    if (typing) typing.blur();
-    else if (session.model.opening) session.model.cancelOpening();
+    if (typing) {
+      typing.blur();
+      this.picture?.focus();
+    } else if (session.model.opening) session.model.cancelOpening();
     else if (session.view.aim) session.view.aim = null;
     else if (session.messages.message) this.dismiss();
     else if (session.view.tool) this.endTool(session.view.tool);
@@ -573,6 +602,14 @@ export class App extends Part implements ActionHost {
   }
 }
 customElements.define("svt-app", App);
+
+/** As by a key: the focus is there, too. */
+function pressed(control: HTMLElement | null): void {
+  control?.focus();
+  control?.click();
+}
+
+const isTouch = () => matchMedia("(pointer: coarse)").matches;
 
 /** Roots of the parts inside a part. */
 function nestedRoots(root: ParentNode): ShadowRoot[] {

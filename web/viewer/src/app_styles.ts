@@ -69,7 +69,7 @@ export const appStyles = css`
   .progress .above { display: flex; justify-content: space-between; align-items: center; min-height: 44px; }
   .arriving { display: flex; min-height: 20px; align-items: center; gap: 10px; font-variant-numeric: tabular-nums; }
   .arriving span { min-width: 4ch; text-align: end; }
-  .preview { position: absolute; inset: 0; width: 100%; height: 100%; object-fit: contain; background: var(--stage); pointer-events: none; }
+  .preview { position: absolute; inset: 0; width: 100%; height: 100%; object-fit: contain; background: #fff; filter: var(--preview, none); pointer-events: none; }
   progress { width: 100%; height: 6px; accent-color: var(--accent); }
   .dropping { position: absolute; inset: 10px; border: 3px dashed var(--accent); border-radius: 18px; display: grid; place-items: center; background: color-mix(in srgb, var(--panel) 75%, transparent); font-size: 20px; font-weight: 600; z-index: 9; pointer-events: none; }
   .skip { position: absolute; left: 8px; top: -60px; z-index: 20; }
@@ -89,14 +89,17 @@ export const appStyles = css`
     main { display: grid; }
     main > .middle { display: grid; grid-template-rows: minmax(0, 1fr) auto auto; }
     /* Over the picture only. */
-    svt-aim, .preview, svt-section-panes { grid-area: 1 / 1 / 2 / 2; }
+    svt-aim, .preview, svt-section-panes, svt-walk-pad { grid-area: 1 / 1 / 2 / 2; }
     svt-section-panes { inset: 0; }
     .four svt-picture { position: relative; height: 50%; }
     .dock, .card, .sheet { position: static; transform: none; max-width: none; width: auto; border-radius: 0; border-width: 1px 0 0; box-shadow: none; }
     .dock { order: 2; justify-content: space-between; }
     .dock button { min-width: 0; padding: 5px 2px; flex: 1; font-size: 10.5px; overflow: hidden; }
     .card { order: 1; max-height: 42dvh; }
-    .sheet { height: 50dvh; }
+    .sheet { height: 50dvh; position: relative; grid-template-rows: minmax(0, 1fr); --sheet-close: 48px; }
+    .sheet > .bar { position: absolute; right: 0; top: 0; padding: 10px 6px; border: 0; z-index: 1; }
+    .sheet h2 { position: absolute; clip-path: inset(50%); }
+    main:has(> .sheet) svt-view-cube { display: none; }
     header { padding: 4px; gap: 0; }
     header button.bare { min-width: 44px; min-height: 44px; }
     .dock button { min-height: 48px; }

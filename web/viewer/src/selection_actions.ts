@@ -6,6 +6,7 @@ import type { Session } from "./session";
 import { withMembers, type FeatureIndex } from "./state/feature_index";
 import { ofClass, ofSubtree, quoted } from "./state/queries";
 import { t } from "./texts";
+import { toolText } from "./tool_texts";
 import { copy } from "./ui/files";
 
 export function selectionActions(session: Session): Action[] {
@@ -47,6 +48,13 @@ export function selectionActions(session: Session): Action[] {
       isEnabled: () => first() >= 0 && storeyOf(volume.index, first()) >= 0,
       run: () => selectStorey(session, first()),
     },
+    {
+      id: "more",
+      text: () => toolText(session.selection.isMore ? "moreEnd" : "more"),
+      icon: "plus",
+      isEnabled: isAny,
+      run: () => (session.selection.isMore = !session.selection.isMore),
+    },
     { id: "copy-id", text: () => t("copyId"), icon: "copy", isEnabled: isAny, run: () => void copyIds(session) },
     { id: "deselect", text: () => t("deselect"), icon: "close", isEnabled: isAny, run: () => session.selection.select([]) },
   ];
@@ -69,7 +77,7 @@ export function nameOfSelection({ volume, view }: Session): string {
   return selection.length ? t("severalSelected", { n: selection.length }) : t("nothingSelected");
 }
 
-const kInMenu = new Set(["zoom", "hide", "isolate", "highlight", "cutaway", "same-type", "same-storey", "copy-id"]);
+const kInMenu = new Set(["zoom", "hide", "isolate", "highlight", "cutaway", "same-type", "same-storey", "more", "copy-id"]);
 
 /** The type in the model's own format, else the class. */
 function typeAt(index: FeatureIndex, i: number): string {

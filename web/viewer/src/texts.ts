@@ -267,10 +267,6 @@ const kTexts = {
 
   lensOn: ["Lens on", "Linse an"],
   lensSize: ["Size", "Größe"],
-  lensHint: [
-    "The lens follows the mouse and is cut by the section planes (or through the middle). The wheel with Shift changes its size, a click pins it.",
-    "Die Linse folgt der Maus; in ihr schneiden die Schnittebenen (oder die Mitte). Mausrad mit Umschalt ändert die Größe, ein Klick hält sie fest.",
-  ],
   lensPinned: ["Pinned", "Festgehalten"],
   lensX: ["Across", "Waagrecht"],
   lensY: ["Down", "Senkrecht"],
@@ -333,10 +329,6 @@ const kTexts = {
   legendRange: ["from {low} to {high}", "von {low} bis {high}"],
   legendMissing: ["without a value: {n}", "ohne Wert: {n}"],
 
-  measureHint: [
-    "Click points in the picture. Near a corner or an edge of the model, the point snaps to it; with Ctrl it does not.",
-    "Punkte im Bild anklicken. Nahe einer Ecke oder Kante des Modells liegt der Punkt genau dort; mit Strg nicht.",
-  ],
   atCorner: ["at a corner", "an einer Ecke"],
   atEdge: ["on an edge", "auf einer Kante"],
   onFace: ["on a face", "auf einer Fläche"],
@@ -362,10 +354,6 @@ const kTexts = {
   bcfExport: ["Save the bookmarks as BCF 3.0", "Die Lesezeichen als BCF 3.0 sichern"],
   bcfMissing: ["{n} components of the file are not in this model.", "{n} Bauteile daraus sind nicht in diesem Modell."],
   notBcf: ["{name} is not a readable BCF file: {error}.", "{name} ist keine lesbare BCF-Datei: {error}."],
-  walkHint: [
-    "W A S D walk, around walls and up stairs; Q and E go down and up, dragging looks around, 0 ends it.",
-    "W A S D gehen, an Wänden entlang und Treppen hinauf; Q und E runter und rauf, Ziehen blickt umher, 0 beendet es.",
-  ],
   fieldOfView: ["Field of view", "Blickwinkel"],
 
   bookmarks: ["Bookmarks", "Lesezeichen"],

@@ -1,107 +1,49 @@
 /**
- * Texts of the parts that load when they are first used, English and German, as in texts.ts. Language files have them under
- * the same keys.
+ * Texts of tools, English and German, as in texts.ts. Language files have them under the same keys.
  */
 
 import { inLanguage } from "./texts";
 
 const kToolTexts = {
-  filterAttributes: ["Filter attributes", "Attribute filtern"],
-  noSuchAttribute: ["No attribute matches.", "Kein Attribut passt."],
-  group_general: ["General", "Allgemein"],
-  group_material: ["Materials", "Materialien"],
-  group_classification: ["Classification", "Klassifikation"],
-  group_quantities: ["Quantities", "Mengen"],
-  group_set: ["Properties", "Eigenschaften"],
-  quantity: ["Quantity", "Menge"],
-  stated: ["Stated in the model", "Im Modell angegeben"],
-  measured: ["Measured", "Gemessen"],
-
-  palette: ["Actions", "Aktionen"],
-  paletteSearch: ["Search actions", "Aktionen suchen"],
-  paletteFound: ["{n} actions", "{n} Aktionen"],
-  paletteNothing: ["No action matches.", "Keine Aktion passt."],
-
-  menuOf: ["Menu of {name}", "Menü von {name}"],
-
-  table: ["Table of objects", "Tabelle der Objekte"],
-  tableFilter: ["Filter: words in all columns", "Filter: Wörter in allen Spalten"],
-  tableClass: ["Class", "Klasse"],
-  tableAllClasses: ["All classes", "Alle Klassen"],
-  tableColumn: ["Add a column", "Spalte hinzufügen"],
-  tableRemove: ["Remove the column {name}", "Spalte {name} entfernen"],
-  tableSort: ["Sort by {name}", "Nach {name} sortieren"],
-  tableCount: ["{n} of {all} objects", "{n} von {all} Objekten"],
-  tableSave: ["Save as CSV", "Als CSV speichern"],
-  tableSelect: ["Select all rows", "Alle Zeilen auswählen"],
-  tableName: ["Name", "Name"],
-  tableType: ["Type", "Typ"],
-  tableStorey: ["Storey", "Geschoss"],
-  tableId: ["Id", "Kennung"],
-
-  keyOrbit: ["Turn", "Drehen"],
-  keyOrbitHow: ["drag, one finger, arrow keys", "Ziehen, ein Finger, Pfeiltasten"],
-  keyPan: ["Move", "Verschieben"],
-  keyPanHow: [
-    "right button or Shift and drag, two fingers, Shift and arrow keys",
-    "rechte Taste oder Umschalt und Ziehen, zwei Finger, Umschalt und Pfeiltasten",
-  ],
-  keyZoom: ["Zoom to the pointer", "Zum Zeiger zoomen"],
-  keyZoomHow: ["wheel, pinch, + and −", "Mausrad, zwei Finger, + und −"],
-  keyPick: ["Select", "Auswählen"],
-  keyPickHow: [
-    "click; with Ctrl more than one; Enter: the object in the middle",
-    "Klick; mit Strg mehrere; Eingabe: das Objekt in der Mitte",
-  ],
-  keyAlongHow: ["Alt-click, L", "Alt-Klick, L"],
-  keyFrame: ["Frame", "Heranholen"],
-  keyFrameHow: ["double click, F", "Doppelklick, F"],
-  keyViews: ["Named views", "Benannte Ansichten"],
-  keyViewsHow: ["1 to 7", "1 bis 7"],
-  keyFit: ["Show all of it", "Alles zeigen"],
-  keyFitHow: ["0", "0"],
-  keyTools: ["Tools", "Werkzeuge"],
-  keyToolsHow: [
-    "X section, C lens, V focus, K look, M measure, N views, B keep",
-    "X Schnitt, C Linse, V Fokus, K Stil, M Messen, N Ansichten, B Sichern",
-  ],
-  keyHide: ["Hide or show the selection", "Auswahl verbergen oder zeigen"],
-  keyHideHow: ["H; Shift and H: show all", "H; Umschalt und H: alles zeigen"],
-  keyUndo: ["Undo, redo", "Zurücknehmen, wiederholen"],
-  keyUndoHow: ["Ctrl and Z; Ctrl, Shift and Z or Ctrl and Y", "Strg und Z; Strg, Umschalt und Z oder Strg und Y"],
-  keySearch: ["Search", "Suchen"],
-  keySearchHow: ["/", "/"],
-  keyActions: ["All actions", "Alle Aktionen"],
-  keyActionsHow: ["Ctrl and K", "Strg und K"],
-  keyMenu: ["Menu of an object", "Menü eines Objekts"],
-  keyMenuHow: ["right click, long press, Shift and F10", "Rechtsklick, langes Drücken, Umschalt und F10"],
-  keyTable: ["Table of objects", "Tabelle der Objekte"],
-  keyTableHow: ["T", "T"],
-  keyLeave: ["Leave, deselect", "Verlassen, Auswahl aufheben"],
-  keyLeaveHow: ["Esc", "Esc"],
-  keyTree: ["In the list", "In der Liste"],
-  keyTreeHow: ["arrow keys, Enter selects, Space hides, C colours", "Pfeiltasten, Eingabe wählt, Leertaste verbirgt, C färbt"],
-
   cube: ["View cube", "Ansichtswürfel"],
   cubeHint: [
     "View cube. Arrow keys turn the view by 45 degrees, Enter shows all of it, Home shows it slanted.",
     "Ansichtswürfel. Pfeiltasten drehen um 45 Grad, Eingabe zeigt alles, Pos1 zeigt es schräg.",
   ],
   cubeFit: ["The whole model", "Das ganze Modell"],
+  lensHint: [
+    "The lens follows the mouse and is cut by the section planes (or through the middle). The wheel with Shift changes its size, a click pins it.",
+    "Die Linse folgt der Maus; in ihr schneiden die Schnittebenen (oder die Mitte). Mausrad mit Umschalt ändert die Größe, ein Klick hält sie fest.",
+  ],
+  lensTouch: [
+    "A tap moves the lens there and pins it. The section planes cut inside it, or a plane through the middle.",
+    "Tippen setzt die Linse dorthin und hält sie fest. In ihr schneiden die Schnittebenen oder die Mitte.",
+  ],
+  walkHint: [
+    "W A S D walk, around walls and up stairs; Q and E go down and up, dragging looks around, 0 ends it.",
+    "W A S D gehen, an Wänden entlang und Treppen hinauf; Q und E runter und rauf, Ziehen blickt umher, 0 beendet es.",
+  ],
+  walkTouch: [
+    "Hold an arrow to walk, around walls and up stairs. Dragging looks around.",
+    "Einen Pfeil gedrückt halten, um zu gehen, an Wänden entlang und Treppen hinauf. Ziehen blickt umher.",
+  ],
+  measureHint: [
+    "Click points in the picture. Near a corner or an edge of the model, the point snaps to it; with Ctrl it does not.",
+    "Punkte im Bild anklicken. Nahe einer Ecke oder Kante des Modells liegt der Punkt genau dort; mit Strg nicht.",
+  ],
+  measureTouch: [
+    "Tap points in the picture. Near a corner or an edge of the model, the point snaps to it.",
+    "Punkte im Bild antippen. Nahe einer Ecke oder Kante des Modells liegt der Punkt genau dort.",
+  ],
+  print: ["Print, PDF", "Drucken, PDF"],
+  printHint: ["Prints the sheets. The browser also saves them as PDF.", "Druckt die Blätter. Der Browser speichert sie auch als PDF."],
+  more: ["Select several", "Mehrere auswählen"],
+  moreNow: ["Each tap or click adds an object.", "Jedes Tippen oder Klicken fügt ein Objekt hinzu."],
+  moreEnd: ["Done", "Fertig"],
+
   rectangle: ["Select in a rectangle", "Im Rechteck auswählen"],
-  rectangleHint: [
-    "Drag a rectangle. To the right, it selects what is completely inside; to the left, all that it touches.",
-    "Ein Rechteck ziehen. Nach rechts wählt es, was ganz darin liegt; nach links alles, was es berührt.",
-  ],
-  rectangleKeys: [
-    "Arrow keys change its size, with Shift its place; Enter selects, with Ctrl in addition.",
-    "Pfeiltasten ändern die Größe, mit Umschalt die Lage; Eingabe wählt aus, mit Strg zusätzlich.",
-  ],
   planeByFace: ["Through a face", "Durch eine Fläche"],
   faceHint: ["Click a face: the plane goes through it.", "Eine Fläche anklicken: Die Ebene geht durch sie."],
-  faceKeys: ["Enter takes the face in the middle.", "Eingabe nimmt die Fläche in der Mitte."],
-  facePlane: ["Plane {n} goes through the face.", "Ebene {n} geht durch die Fläche."],
-  faceNothing: ["Click a face of the model.", "Klicken Sie auf eine Fläche des Modells."],
   sectionBox: ["Section box", "Schnittkasten"],
   sectionBoxHint: [
     "Six planes around the selection, or around the middle of the building. They replace other planes.",
@@ -142,43 +84,17 @@ const kToolTexts = {
   statusOpen: ["Open", "Offen"],
   statusInProgress: ["In progress", "In Arbeit"],
   statusClosed: ["Closed", "Erledigt"],
-
-  pane_plan: ["Plan", "Grundriss"],
-  pane_front: ["Section from the front", "Schnitt von vorn"],
-  pane_side: ["Section from the right", "Schnitt von rechts"],
-  paneKeys: [
-    "A click or the arrow keys move the other sections, Page Up and Page Down this one. Shift and arrow keys pan, + and - zoom, 0 shows all.",
-    "Ein Klick oder die Pfeiltasten verschieben die anderen Schnitte, Bild auf und Bild ab diesen. Umschalt und Pfeiltasten verschieben das Bild, + und - vergrößern und verkleinern, 0 zeigt alles.",
-  ],
-  paneFailed: ["This section cannot be drawn.", "Dieser Schnitt lässt sich nicht zeichnen."],
-  keyFour: ["Four views", "Vier Ansichten"],
-  keyFourHow: [
-    "J; a click in a view moves the sections; drag, wheel or + and -; arrow keys, Page Up, Page Down",
-    "J; ein Klick in eine Ansicht verschiebt die Schnitte; ziehen, Rad oder + und -; Pfeiltasten, Bild auf, Bild ab",
-  ],
-  keyCube: ["View cube", "Ansichtswürfel"],
-  keyCubeHow: [
-    "click a face, an edge or a corner; drag; arrow keys turn by 45 degrees; P: parallel",
-    "Fläche, Kante oder Ecke anklicken; ziehen; Pfeiltasten drehen um 45 Grad; P: parallel",
-  ],
-  keyRectangle: ["Select in a rectangle", "Im Rechteck auswählen"],
-  keyRectangleHow: [
-    "R, then drag; in the list: Shift and click, Shift and arrow keys",
-    "R, dann ziehen; in der Liste: Umschalt und Klick, Umschalt und Pfeiltasten",
-  ],
-
-  findingsOfCode: ["{code}: {n}", "{code}: {n}"],
-  findingsMore: ["{n} more", "{n} weitere"],
 } as const satisfies Record<string, readonly [string, string]>;
 
 export type ToolTextKey = keyof typeof kToolTexts;
 
-export function isToolText(key: string): key is ToolTextKey {
-  return key in kToolTexts;
-}
-
 export function toolText(key: ToolTextKey, values: Record<string, string | number> = {}): string {
   return inLanguage(key, kToolTexts[key], values);
+}
+
+/** The hint of a tool, for a mouse or for fingers. */
+export function toolHint(tool: "lens" | "walk" | "measure"): string {
+  return toolText(`${tool}${matchMedia("(pointer: coarse)").matches ? "Touch" : "Hint"}`);
 }
 
 /** The English of these texts, for translation in a language file. */

@@ -22,7 +22,7 @@ import { project, toWorld } from "../camera/camera";
 import type { Point, VolumeInfo } from "../engine";
 import { isSameChoice, type ViewState } from "../state/view_state";
 import { number, t } from "../texts";
-import { toolText } from "../tool_texts";
+import { lateText } from "../late_texts";
 import { controls, Part } from "../ui/part";
 
 const kNames = Object.keys(kPanes) as PaneName[];
@@ -130,18 +130,18 @@ export class SectionPanes extends Part {
 
   private pane(name: PaneName, at: Point) {
     const { axis } = kPanes[name];
-    const title = `${toolText(`pane_${name}`)}: ${"xyz"[axis]} = ${number(at[axis], 2)} m`;
+    const title = `${lateText(`pane_${name}`)}: ${"xyz"[axis]} = ${number(at[axis], 2)} m`;
     const { x, y } = this.placeOf(name, at);
     const [across, down] = [100 * x, 100 * y];
     return html`<section id=${name} aria-label=${title}>
       <canvas aria-hidden="true"></canvas>
       <svg aria-hidden="true" viewBox="0 0 100 100" preserveAspectRatio="none"><line x1=${across} x2=${across} y1="0" y2="100"></line><line x1="0" x2="100" y1=${down} y2=${down}></line></svg>
-      <div class="stage" tabindex="0" role="application" aria-roledescription=${t("picture")} aria-label="${title}. ${toolText("paneKeys")}"
+      <div class="stage" tabindex="0" role="application" aria-roledescription=${t("picture")} aria-label="${title}. ${lateText("paneKeys")}"
         @pointerdown=${(e: PointerEvent) => this.pressed(e)} @pointermove=${(e: PointerEvent) => this.dragged(e, name)}
         @pointerup=${(e: PointerEvent) => this.released(e, name)} @pointercancel=${(e: PointerEvent) => this.lost(e)}
         @wheel=${(e: WheelEvent) => this.wheeled(e, name)} @keydown=${(e: KeyboardEvent) => this.key(e, name)} @contextmenu=${(e: Event) => e.preventDefault()}></div>
       <h2>${title}</h2>
-      ${this.panes[name].hasFailed ? html`<p class="quiet">${toolText("paneFailed")}</p>` : ""}
+      ${this.panes[name].hasFailed ? html`<p class="quiet">${lateText("paneFailed")}</p>` : ""}
     </section>`;
   }
 

@@ -31,6 +31,7 @@ export class ViewCube extends Part {
       .buttons button { border-radius: 0; min-width: 31px; min-height: 30px; padding: 3px; }
       .buttons :focus-visible { outline-offset: -2px; }
       @media (max-width: 759px), (pointer: coarse) { .buttons button { min-width: 44px; min-height: 44px; } }
+      @media (max-width: 759px) { :host { justify-items: start; } .buttons { flex-direction: column; } }
     `,
   ];
 

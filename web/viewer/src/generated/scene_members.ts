@@ -13,7 +13,14 @@ export const kSceneMembers = {
   "/scaleBar": { type: "flag", default: false, option: "--scale-bar", group: "Illustrate", help: "draw a scale bar; parallel projection only, because no other picture has a single scale" },
   "/northArrow": { type: "flag", default: false, option: "--north-arrow", group: "Illustrate", help: "draw an arrow to true north" },
   "/colorBy": { type: "text", option: "--color-by", group: "Illustrate", help: "colour visible components by class, name, storey, volume, area of rooms, owner, voxels or an attribute, with a legend" },
-  "/legend": { type: "flag", default: true, help: "draw a legend for the colours of colorBy" },
+  "/field": { type: "object", help: "a field of the volume as colours of surfaces" },
+  "/field/name": { type: "text", option: "--field", group: "Illustrate", help: "colour cut faces and visible surfaces by this field of the volume, with a legend" },
+  "/field/time": { type: "number", unit: "seconds", minimum: -1000000000000, maximum: 1000000000000, option: "--time", group: "Illustrate", help: "time of the field" },
+  "/field/range": { type: "number", minimum: -1000000000000, maximum: 1000000000000, option: "--range", group: "Illustrate", help: "values of the field at the ends of the colour map" },
+  "/field/isolines": { type: "number", minimum: 0, maximum: 1000000000000, default: 0, option: "--isolines", group: "Illustrate", help: "draw lines of equal value of the field, this step apart, in its unit; 0: none" },
+  "/field/map": { type: "text", choices: ["viridis", "cividis", "inferno", "batlow", "vik", "greys"], default: "viridis", option: "--map", group: "Illustrate", help: "colour map of the field; vik is for values on both sides of a middle" },
+  "/field/per": { type: "text", choices: ["mean", "max", "min"], option: "--per", group: "Illustrate", help: "colour each component by this figure of the field over its voxels, not by place" },
+  "/legend": { type: "flag", default: true, help: "draw a legend for the colours of colorBy or of a field" },
   "/explode": { type: "number", unit: "metres", minimum: 0, maximum: 1000, default: 0, option: "--explode", group: "Illustrate", help: "draw the storeys apart, with this vertical gap between them" },
   "/sun": { type: "object", help: "light by the sun, with shadows" },
   "/sun/time": { type: "text", option: "--sun", group: "Illustrate", help: "date and hour of the sun, such as '2026-06-21 15:00'; with Z or +02:00 unless it is the time of the meridian" },
@@ -87,6 +94,13 @@ export interface Scene { format?: "svt-scene";
   scaleBar?: boolean;
   northArrow?: boolean;
   colorBy?: string;
+  field?: { name: string;
+  time?: number;
+  range?: [number, number];
+  isolines?: number;
+  map?: "viridis" | "cividis" | "inferno" | "batlow" | "vik" | "greys";
+  per?: "mean" | "max" | "min";
+  };
   legend?: boolean;
   explode?: number;
   sun?: { time: string;

@@ -3,7 +3,7 @@
 import { css, html, nothing } from "lit";
 import type { FeatureProperties } from "../engine";
 import { dateText, number, t } from "../texts";
-import { toolText } from "../tool_texts";
+import { lateText } from "../late_texts";
 import { controls, Part } from "../ui/part";
 import { filtered, groupsOf, measuredFor, type AttributeGroup, type AttributeRow } from "./attribute_groups";
 
@@ -56,11 +56,11 @@ export class AttributeList extends Part {
     return html`
       ${
         isMany
-          ? html`<input id="filter" type="search" autocomplete="off" spellcheck="false" aria-label=${toolText("filterAttributes")} placeholder=${toolText("filterAttributes")}
+          ? html`<input id="filter" type="search" autocomplete="off" spellcheck="false" aria-label=${lateText("filterAttributes")} placeholder=${lateText("filterAttributes")}
               .value=${this.search} @input=${(e: Event) => (this.search = (e.target as HTMLInputElement).value)} />`
           : nothing
       }
-      ${shown.length ? shown.map((group, n) => this.group(group, this.isOpen(group, n, isMany))) : html`<p class="quiet">${count ? toolText("noSuchAttribute") : t("noAttributes")}</p>`}
+      ${shown.length ? shown.map((group, n) => this.group(group, this.isOpen(group, n, isMany))) : html`<p class="quiet">${count ? lateText("noSuchAttribute") : t("noAttributes")}</p>`}
     `;
   }
 
@@ -70,7 +70,7 @@ export class AttributeList extends Part {
   }
 
   private group(group: AttributeGroup, isOpen: boolean) {
-    const title = group.kind === "set" ? group.set : toolText(`group_${group.kind}`);
+    const title = group.kind === "set" ? group.set : lateText(`group_${group.kind}`);
     const set = group.kind === "quantities" && group.set ? ` · ${group.set}` : "";
     return html`<details ?open=${isOpen} data-group=${keyOf(group)}>
       <summary @click=${(e: Event) => this.folds(group, (e.currentTarget as HTMLElement).parentElement as HTMLDetailsElement)}>${title}${set} <span class="count">(${group.rows.length})</span></summary>
@@ -96,7 +96,7 @@ export class AttributeList extends Part {
     const found = rows.map((row) => ({ row, measured: measuredFor(row.label, this.of) }));
     if (!found.some(({ measured }) => measured)) return html`<dl>${rows.map((row) => this.row(row))}</dl>`;
     return html`<table aria-label=${title}>
-      <thead><tr><th scope="col">${toolText("quantity")}</th><th scope="col">${toolText("stated")}</th><th scope="col">${toolText("measured")}</th></tr></thead>
+      <thead><tr><th scope="col">${lateText("quantity")}</th><th scope="col">${lateText("stated")}</th><th scope="col">${lateText("measured")}</th></tr></thead>
       <tbody>${found.map(
         ({ row, measured }) =>
           html`<tr><th scope="row">${row.label}</th><td>${this.text(row.name, row.value)}</td><td>${measured ? `${number(measured.value, 3)} ${measured.unit}` : ""}</td></tr>`,

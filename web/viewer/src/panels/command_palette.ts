@@ -2,7 +2,7 @@
 
 import { css, html, nothing } from "lit";
 import type { Action } from "../actions";
-import { toolText } from "../tool_texts";
+import { lateText } from "../late_texts";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
 import { keyText } from "./key_text";
@@ -27,6 +27,7 @@ export class CommandPalette extends Part {
       kbd { font: inherit; font-size: 11px; border: 1px solid var(--line-strong); border-radius: 5px; padding: 0 5px; white-space: nowrap; }
       .none { padding: 14px; }
       svg { flex: none; }
+      @media (pointer: coarse) { kbd { display: none; } }
       @media (max-width: 759px), (pointer: coarse) { li { min-height: 44px; } }
     `,
   ];
@@ -54,23 +55,27 @@ export class CommandPalette extends Part {
     this.renderRoot.querySelector("input")!.focus();
   }
 
+  /** Actions with all words; first those in which each begins a word. */
   private get found(): Action[] {
     const words = this.search.toLowerCase().split(/\s+/).filter(Boolean);
-    return this.actions.filter((action) => words.every((word) => action.text().toLowerCase().includes(word)));
+    const found = this.actions.filter((action) => words.every((word) => action.text().toLowerCase().includes(word)));
+    const begins = (action: Action) =>
+      words.every((word) => ` ${action.text().toLowerCase()}`.replace(/[^\p{L}\p{N}]+/gu, " ").includes(` ${word}`));
+    return [...found.filter(begins), ...found.filter((action) => !begins(action))];
   }
 
   override render() {
     const { found } = this;
     const active = found.length ? `action-${found[Math.min(this.active, found.length - 1)]!.id}` : nothing;
-    return html`<dialog aria-label=${toolText("palette")} @click=${(e: Event) => e.target === this.dialog && this.close()} @close=${() => this.requestUpdate()}>
-      <div class="field"><input type="search" role="combobox" autocomplete="off" spellcheck="false" aria-label=${toolText("paletteSearch")} placeholder=${toolText("paletteSearch")}
+    return html`<dialog aria-label=${lateText("palette")} @click=${(e: Event) => e.target === this.dialog && this.close()} @close=${() => this.requestUpdate()}>
+      <div class="field"><input type="search" role="combobox" autocomplete="off" spellcheck="false" aria-label=${lateText("paletteSearch")} placeholder=${lateText("paletteSearch")}
         aria-expanded="true" aria-controls="found" aria-activedescendant=${active} .value=${this.search}
         @input=${(e: Event) => ((this.search = (e.target as HTMLInputElement).value), (this.active = 0))} @keydown=${this.key} />
-        <div class="visually-hidden" role="status">${found.length ? toolText("paletteFound", { n: found.length }) : toolText("paletteNothing")}</div></div>
-      <ul id="found" role="listbox" tabindex="-1" aria-label=${toolText("palette")}>${
+        <div class="visually-hidden" role="status">${found.length ? lateText("paletteFound", { n: found.length }) : lateText("paletteNothing")}</div></div>
+      <ul id="found" role="listbox" tabindex="-1" aria-label=${lateText("palette")}>${
         found.length
           ? found.map((action) => this.row(action, `action-${action.id}` === active))
-          : html`<li class="none quiet" role="option" aria-selected="false" aria-disabled="true">${toolText("paletteNothing")}</li>`
+          : html`<li class="none quiet" role="option" aria-selected="false" aria-disabled="true">${lateText("paletteNothing")}</li>`
       }</ul></dialog>`;
   }
 
@@ -106,6 +111,8 @@ export class CommandPalette extends Part {
     // The field must not take keys until the browser notices that it is hidden.
     this.renderRoot.querySelector("input")!.blur();
     this.dialog.close();
+    // Without an element that had the focus before, keys are for the picture.
+    if (document.activeElement === document.body) (this.getRootNode() as ShadowRoot).querySelector<HTMLElement>("svt-picture")?.focus();
   }
 
   private run(action: Action): void {

@@ -2,7 +2,7 @@
 
 import { css, html, nothing } from "lit";
 import type { Action } from "../actions";
-import { toolText } from "../tool_texts";
+import { lateText } from "../late_texts";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
 import { keyText } from "./key_text";
@@ -29,6 +29,7 @@ export class ContextMenu extends Part {
       button span { flex: 1; overflow-wrap: anywhere; }
       button:focus { background: var(--accent-soft); color: var(--accent-text); outline: none; }
       kbd { font: inherit; font-size: 11px; color: var(--quiet); }
+      @media (pointer: coarse) { kbd { display: none; } }
       svg { flex: none; }
     `,
   ];
@@ -84,7 +85,7 @@ export class ContextMenu extends Part {
   }
 
   override render() {
-    return html`<div role="menu" popover="manual" aria-label=${toolText("menuOf", { name: this.name })} @keydown=${this.key}>
+    return html`<div role="menu" popover="manual" aria-label=${lateText("menuOf", { name: this.name })} @keydown=${this.key}>
       <div class="title" role="presentation">${this.name}</div>
       ${this.actions.map(
         (

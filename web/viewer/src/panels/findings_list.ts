@@ -2,7 +2,7 @@
 
 import { css, html, nothing } from "lit";
 import { t } from "../texts";
-import { toolText } from "../tool_texts";
+import { lateText } from "../late_texts";
 import { controls, Part } from "../ui/part";
 import { findingGroups, type FindingGroup } from "./finding_groups";
 
@@ -36,11 +36,11 @@ export class FindingsList extends Part {
   private group({ severity, code, findings }: FindingGroup, isOnly: boolean) {
     const title = code ? `${severity} ${code}` : findings[0]!.text;
     return html`<details data-code=${code.slice(0, 4)} ?open=${isOnly && findings.length <= kShown}>
-      <summary>${code ? toolText("findingsOfCode", { code: title, n: findings.length }) : title}</summary>
+      <summary>${code ? lateText("findingsOfCode", { code: title, n: findings.length }) : title}</summary>
       <ul>${findings
         .slice(0, kShown)
         .map(({ text, id }) => html`<li>${id === null ? text : html`<button @click=${() => this.select(id)}>${text}</button>`}</li>`)}
-        ${findings.length > kShown ? html`<li class="quiet">${toolText("findingsMore", { n: findings.length - kShown })}</li>` : nothing}</ul>
+        ${findings.length > kShown ? html`<li class="quiet">${lateText("findingsMore", { n: findings.length - kShown })}</li>` : nothing}</ul>
     </details>`;
   }
 

@@ -1,8 +1,9 @@
 /** Mouse, touch and keys. */
 
 import { css, html } from "lit";
+import { isLateText, lateText, type LateTextKey } from "../late_texts";
 import { t, type TextKey } from "../texts";
-import { isToolText, toolText, type ToolTextKey } from "../tool_texts";
+import { toolText } from "../tool_texts";
 import { controls, Part } from "../ui/part";
 
 const kRows = [
@@ -18,6 +19,7 @@ const kRows = [
   ["keyViews", "keyViewsHow"],
   ["keyCube", "keyCubeHow"],
   ["keyTools", "keyToolsHow"],
+  ["keyCross", "keyCrossHow"],
   ["keyHide", "keyHideHow"],
   ["keyUndo", "keyUndoHow"],
   ["keySearch", "keySearchHow"],
@@ -29,7 +31,8 @@ const kRows = [
   ["keyLeave", "keyLeaveHow"],
 ] as const;
 
-const textOf = (key: TextKey | ToolTextKey): string => (isToolText(key) ? toolText(key) : t(key));
+const textOf = (key: TextKey | LateTextKey | "walkHint"): string =>
+  key === "walkHint" ? toolText(key) : isLateText(key) ? lateText(key) : t(key);
 
 export class HelpDialog extends Part {
   static override styles = [

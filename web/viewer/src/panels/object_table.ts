@@ -2,7 +2,7 @@
 
 import { css, html, nothing, unsafeCSS } from "lit";
 import { language, number, t } from "../texts";
-import { toolText } from "../tool_texts";
+import { lateText } from "../late_texts";
 import { save } from "../ui/files";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
@@ -133,22 +133,22 @@ export class ObjectTable extends Part {
     return [
       own(
         "name",
-        toolText("tableName"),
+        lateText("tableName"),
         features.map((feature) => nameOf(index, feature)),
       ),
       own(
         "type",
-        toolText("tableType"),
+        lateText("tableType"),
         features.map(({ type, class: name }) => type || name),
       ),
       own(
         "storey",
-        toolText("tableStorey"),
+        lateText("tableStorey"),
         features.map((_, i) => (storeys[i]! < 0 ? null : nameOf(index, features[storeys[i]!]!))),
       ),
       own(
         "id",
-        toolText("tableId"),
+        lateText("tableId"),
         features.map(({ id }) => id),
       ),
     ];
@@ -180,7 +180,7 @@ export class ObjectTable extends Part {
     const selected = view.now.selection.length ? (i: number) => chosen.has(index.features[i]!.id) : () => false;
     return html`
       ${this.bar()}
-      <div class="scroll" role="grid" tabindex="0" aria-label=${toolText("table")} aria-rowcount=${rows.length + 1} aria-colcount=${columns.length} aria-multiselectable="true"
+      <div class="scroll" role="grid" tabindex="0" aria-label=${lateText("table")} aria-rowcount=${rows.length + 1} aria-colcount=${columns.length} aria-multiselectable="true"
         aria-activedescendant=${this.active >= from && this.active < to ? `line-${this.active}` : nothing} @scroll=${(e: Event) => (this.top = (e.target as HTMLElement).scrollTop)} @keydown=${this.key}>
         <div class="head" role="row" aria-rowindex="1">${columns.map((column, n) => this.header(column, n))}</div>
         <div class="space" role="rowgroup" data-height=${rows.length * kRow}>${rows.slice(from, to).map((i, n) => this.line(i, from + n, selected(i)))}</div>
@@ -192,18 +192,18 @@ export class ObjectTable extends Part {
     const used = new Set(this.added.map(({ key }) => key));
     const classes = [...index.classes.keys()].sort();
     return html`<header>
-      <h2>${toolText("table")}</h2>
-      <select id="table-class" aria-label=${toolText("tableClass")} @change=${(e: Event) => this.ofClass((e.target as HTMLSelectElement).value)}>
-        <option value="">${toolText("tableAllClasses")}</option>
+      <h2>${lateText("table")}</h2>
+      <select id="table-class" aria-label=${lateText("tableClass")} @change=${(e: Event) => this.ofClass((e.target as HTMLSelectElement).value)}>
+        <option value="">${lateText("tableAllClasses")}</option>
         ${classes.map((name) => html`<option value=${name} ?selected=${name === this.ofOnly}>${name}</option>`)}</select>
-      <input id="table-filter" type="search" autocomplete="off" spellcheck="false" aria-label=${toolText("tableFilter")} placeholder=${toolText("tableFilter")}
+      <input id="table-filter" type="search" autocomplete="off" spellcheck="false" aria-label=${lateText("tableFilter")} placeholder=${lateText("tableFilter")}
         .value=${this.search} @input=${(e: Event) => this.find((e.target as HTMLInputElement).value)} />
-      <select id="table-column" aria-label=${toolText("tableColumn")} @change=${(e: Event) => this.addColumn(e.target as HTMLSelectElement)}>
-        <option value="" selected>${toolText("tableColumn")}</option>
+      <select id="table-column" aria-label=${lateText("tableColumn")} @change=${(e: Event) => this.addColumn(e.target as HTMLSelectElement)}>
+        <option value="" selected>${lateText("tableColumn")}</option>
         ${(info?.attributes ?? []).filter((name) => !used.has(name)).map((name) => html`<option value=${name}>${name}</option>`)}</select>
-      <span id="table-count" class="small quiet" role="status">${toolText("tableCount", { n: number(this.rows.length, 0), all: number(index.features.length, 0) })}</span>
-      <button id="table-select" ?disabled=${!this.rows.length} @click=${() => this.selectAll()}>${toolText("tableSelect")}</button>
-      <button id="table-save" ?disabled=${!this.rows.length} @click=${() => save(csvOf(this.columns, this.rows), "objects.csv")}>${toolText("tableSave")}</button>
+      <span id="table-count" class="small quiet" role="status">${lateText("tableCount", { n: number(this.rows.length, 0), all: number(index.features.length, 0) })}</span>
+      <button id="table-select" ?disabled=${!this.rows.length} @click=${() => this.selectAll()}>${lateText("tableSelect")}</button>
+      <button id="table-save" ?disabled=${!this.rows.length} @click=${() => save(csvOf(this.columns, this.rows), "objects.csv")}>${lateText("tableSave")}</button>
       <button class="bare" id="table-close" aria-label=${t("close")} @click=${() => this.close()}>${icon("close", 18)}</button>
     </header>`;
   }
@@ -213,8 +213,8 @@ export class ObjectTable extends Part {
     const sort = isSorted ? (this.order.isDescending ? "descending" : "ascending") : "none";
     const name = unit ? `${title} [${unit}]` : title;
     return html`<div role="columnheader" aria-colindex=${n + 1} aria-sort=${sort}>
-      <button class="sort" title=${toolText("tableSort", { name })} @click=${() => this.sortBy(n)}><span>${name}</span>${isSorted ? icon(this.order.isDescending ? "down" : "up", 12) : nothing}</button>
-      ${isAttribute ? html`<button class="bare" aria-label=${toolText("tableRemove", { name: title })} title=${toolText("tableRemove", { name: title })} @click=${() => this.removeColumn(key)}>${icon("close", 12)}</button>` : nothing}
+      <button class="sort" title=${lateText("tableSort", { name })} @click=${() => this.sortBy(n)}><span>${name}</span>${isSorted ? icon(this.order.isDescending ? "down" : "up", 12) : nothing}</button>
+      ${isAttribute ? html`<button class="bare" aria-label=${lateText("tableRemove", { name: title })} title=${lateText("tableRemove", { name: title })} @click=${() => this.removeColumn(key)}>${icon("close", 12)}</button>` : nothing}
     </div>`;
   }
 

@@ -17,6 +17,7 @@ export class PropertiesPanel extends Part {
     css`
       :host { display: block; height: 100%; overflow: auto; padding: 14px; font-size: 13px; line-height: 1.45; }
       h2 { font-size: 16px; overflow-wrap: anywhere; }
+      :is(.path, .head, h2):first-child { padding-right: var(--sheet-close, 0); }
       dl { display: grid; grid-template-columns: auto 1fr; gap: 4px 12px; margin: 10px 0 0; }
       dt { color: var(--quiet); }
       dd { margin: 0; text-align: right; font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }

@@ -27,7 +27,7 @@ export class StyleEditor extends Part {
       .line { display: grid; grid-template-columns: auto 1fr auto; gap: 10px; align-items: center; min-height: 36px; }
       output { font-variant-numeric: tabular-nums; min-width: 34px; text-align: right; }
       .line input[type="color"] { width: 34px; min-width: 34px; padding: 2px; cursor: pointer; }
-      @media (max-width: 759px), (pointer: coarse) { .line input[type="color"] { min-width: 44px; } }
+      @media (max-width: 759px), (pointer: coarse) { .line { column-gap: 18px; } .line input[type="color"] { min-width: 44px; } }
     `,
   ];
 

@@ -69,6 +69,7 @@ export class TreePanel extends Part {
     css`
       :host { display: flex; flex-direction: column; height: 100%; min-height: 0; font-size: 13px; }
       header { padding: 10px 10px 8px; display: grid; gap: 8px; }
+      .segments { margin-right: var(--sheet-close, 0); }
       form { display: grid; grid-template-columns: 1fr auto; gap: 6px; }
       .field { position: relative; }
       .field svg { position: absolute; left: 9px; top: 8px; color: var(--quiet); pointer-events: none; }
@@ -83,14 +84,14 @@ export class TreePanel extends Part {
       .item.selected { background: var(--accent-soft); color: var(--accent-text); }
       .list:focus-visible .item.active { box-shadow: inset 0 0 0 2px var(--focus); }
       .item button { min-height: 26px; min-width: 26px; padding: 2px; border-radius: 6px; flex: none; }
-      @media (max-width: 759px), (pointer: coarse) { .field svg { top: 14px; } .item { gap: 0; } .item button { min-height: 44px; min-width: 44px; } }
+      @media (max-width: 759px), (pointer: coarse) { .field svg { top: 14px; } .item { gap: 0; } .kind { padding-right: 5px; } .item button { min-height: 44px; min-width: 44px; } }
       .twist { color: var(--quiet); }
       .kind { flex: none; display: flex; color: var(--quiet); }
       .selected .kind { color: inherit; }
       .name { flex: 1; min-width: 0; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
       .name .quiet { font-size: 12px; margin-left: 6px; }
       .item.selected .quiet { color: inherit; }
-      .gone .name { opacity: 0.6; text-decoration: line-through; text-decoration-color: var(--quiet); }
+      .gone .name { color: var(--quiet); text-decoration: line-through; }
       .swatch { width: 14px; height: 14px; border-radius: 4px; border: 1px solid #0003; }
       .count { font-size: 12px; color: var(--quiet); font-variant-numeric: tabular-nums; padding-right: 4px; }
       .eye { color: var(--quiet); }
@@ -169,7 +170,9 @@ export class TreePanel extends Part {
   private lastSeen: unknown = null;
 
   focusSearch(): void {
-    this.renderRoot.querySelector<HTMLInputElement>("#search")?.focus();
+    const field = this.renderRoot.querySelector<HTMLInputElement>("#search");
+    field?.focus();
+    field?.select();
   }
 
   override render() {
@@ -331,7 +334,7 @@ export class TreePanel extends Part {
 
   /** With Shift, all rows from the last one that was selected without Shift. */
   private picked(i: number, event: MouseEvent | KeyboardEvent): void {
-    const isAdded = event.ctrlKey || event.metaKey;
+    const isAdded = event.ctrlKey || event.metaKey || this.session.selection.isMore;
     this.active = i;
     if (event.shiftKey) return this.pickRange(i, isAdded);
     this.anchor = i;

@@ -18,6 +18,8 @@ export class Selection extends ViewPart {
   /** Properties of the selected features, if there are exactly two; null until they arrive. */
   pair: readonly [FeatureProperties, FeatureProperties] | null = null;
   along: AlongList | null = null;
+  /** Each tap or click adds to the selection, as with Ctrl. */
+  isMore = false;
 
   constructor(parts: ViewParts) {
     super(parts);
@@ -48,6 +50,7 @@ export class Selection extends ViewPart {
     if (selectedBy) this.view.answers.learn(selectedBy, ids);
     this.along = null;
     this.view.set({ selection: [...kept, ...added], selectedBy: added.length ? selectedBy : "" });
+    if (!kept.length && !added.length) this.isMore = false;
     const { only } = this;
     if (only) this.messages.say(t("picked", { name: labelOf(only), class: only.class }));
     else this.messages.say(ids.length ? t("severalSelected", { n: this.view.state.selection.length }) : t("nothingSelected"));

@@ -17,8 +17,8 @@ import type { OpenVolume } from "./open_volume";
 
 type Projection = Pick<Camera, "parallel" | "fieldOfView">;
 export type Tool = "section" | "lens" | "focus" | "look" | "measure" | "views" | "share";
-/** The choice by the next click or drag in the picture: a rectangle of objects, or a face for a plane. */
-export type Aim = "rectangle" | "face";
+/** The choice by the next click or drag in the picture: a rectangle of objects, a face for a plane; or points by a cross, which keys move. */
+export type Aim = "rectangle" | "face" | "point";
 
 /** A view that is fitted to features, beside its direction. */
 export interface Framing {

@@ -1,6 +1,12 @@
-/** A layer over the picture that takes the next drag, for a rectangle of objects, or the next click, for a face. */
+/**
+ * A layer over the picture that takes the next drag, for a rectangle of objects, or the next click, for a face. Without a mouse, arrow
+ * keys change the rectangle, or move a cross. For points of a measurement, the layer takes only keys: clicks reach the picture.
+ */
 
 import { css, html, nothing, svg } from "lit";
+import type { PictureTools } from "../canvas/overlay";
+import { pressOnPicture } from "../canvas/picture_keys";
+import { lateText } from "../late_texts";
 import { toolText } from "../tool_texts";
 import { t } from "../texts";
 import { icon } from "../ui/icons";
@@ -12,14 +18,27 @@ type Place = readonly [x: number, y: number];
 
 /** Steps of the arrow keys, fractions of the picture. */
 const kStep = 0.05;
+/** The same with Shift, for the cross: pixels. */
+const kFineStep = 1;
 /** Smallest side of a rectangle, pixels: less is a click. */
 const kLeast = 4;
 
 export class AimLayer extends Part {
-  static override properties = { ...Part.properties, from: { state: true }, to: { state: true }, isDown: { state: true } };
+  static override properties = {
+    ...Part.properties,
+    tools: { attribute: false },
+    from: { state: true },
+    to: { state: true },
+    cross: { state: true },
+    isDown: { state: true },
+  };
+  /** Takes the points; null: nothing does. */
+  declare tools: PictureTools | null;
   /** Corners of the rectangle, fractions of the picture: where it began, and where it ends. */
   declare from: Place;
   declare to: Place;
+  /** Where Enter picks, fractions of the picture. */
+  declare cross: Place;
   declare isDown: boolean;
 
   static override styles = [
@@ -27,12 +46,15 @@ export class AimLayer extends Part {
     css`
       :host { position: absolute; inset: 0; z-index: 3; }
       .layer { position: absolute; inset: 0; cursor: crosshair; touch-action: none; outline-offset: -3px !important; }
+      .layer.point { pointer-events: none; }
       svg.drawn { position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none; }
       rect { fill: var(--accent); fill-opacity: 0.12; stroke: var(--accent); stroke-width: 2; }
       rect.touching { stroke-dasharray: 7 4; }
       line { stroke: var(--mark); stroke-width: 1.5; }
+      line.under { stroke: #fff; stroke-width: 3.5; }
       p { position: absolute; right: 10px; top: 10px; left: 112px; justify-self: end; max-width: 340px; margin-left: auto; padding: 6px 6px 6px 12px; display: flex; gap: 8px; align-items: center; border: 1px solid var(--line); border-radius: 10px; background: var(--panel); font-size: 12px; box-shadow: var(--shadow); }
       p span { flex: 1; }
+      p button { pointer-events: auto; }
       @media (max-width: 759px) { p { left: 10px; top: auto; bottom: 10px; max-width: none; } }
     `,
   ];
@@ -41,6 +63,8 @@ export class AimLayer extends Part {
     super();
     this.from = [0.3, 0.3];
     this.to = [0.7, 0.7];
+    this.cross = [0.5, 0.5];
+    this.tools = null;
     this.isDown = false;
   }
 
@@ -50,11 +74,15 @@ export class AimLayer extends Part {
 
   override render() {
     const { view } = this.session;
-    const isRectangle = view.aim === "rectangle";
-    const hint = toolText(isRectangle ? "rectangleHint" : "faceHint");
-    return html`<div class="layer" tabindex="0" role="application" aria-label="${hint} ${toolText(isRectangle ? "rectangleKeys" : "faceKeys")}"
+    const { aim } = view;
+    const isRectangle = aim === "rectangle";
+    const hint = aim === "face" ? toolText("faceHint") : lateText(isRectangle ? "rectangleHint" : "pointHint");
+    const keys = aim === "point" ? "" : lateText(isRectangle ? "rectangleKeys" : "faceKeys");
+    // Clicks between the parts of this layer are for the picture.
+    this.style.pointerEvents = aim === "point" ? "none" : "";
+    return html`<div class="layer ${aim}" tabindex="0" role="application" aria-label="${hint} ${keys}"
         @pointerdown=${this.pressed} @pointermove=${this.moved} @pointerup=${this.released} @pointercancel=${() => (this.isDown = false)} @keydown=${this.key}></div>
-      <svg class="drawn" aria-hidden="true">${isRectangle ? this.rectangle() : cross()}</svg>
+      <svg class="drawn" aria-hidden="true">${isRectangle ? this.rectangle() : cross(this.cross)}</svg>
       <p><span>${hint}</span><button class="bare" aria-label=${t("cancel")} @click=${() => (view.aim = null)}>${icon("close", 16)}</button></p>`;
   }
 
@@ -104,26 +132,38 @@ export class AimLayer extends Part {
   private take(event: PointerEvent | KeyboardEvent, at: Place = this.to): void {
     const { session } = this;
     const { aim } = session.view;
+    const size: [number, number] = [this.clientWidth, this.clientHeight];
+    if (aim === "point") {
+      const { ctrlKey, metaKey, shiftKey } = event;
+      return void this.tools?.click(...at, new PointerEvent("pointerup", { ctrlKey, metaKey, shiftKey }), size);
+    }
     session.view.aim = null;
-    if (aim === "face") void addPlaneAt(session, ...at, [this.clientWidth, this.clientHeight]);
+    if (aim === "face") void addPlaneAt(session, ...at, size);
     else void selectInRectangle(session, this.chosen, this.rule, event.ctrlKey || event.metaKey || event.shiftKey);
   }
 
   private readonly key = (event: KeyboardEvent): void => {
-    const by = { ArrowLeft: [-kStep, 0], ArrowRight: [kStep, 0], ArrowUp: [0, -kStep], ArrowDown: [0, kStep] }[event.key];
-    const moved = ([x, y]: Place): Place => [Math.min(1, Math.max(0, x + by![0]!)), Math.min(1, Math.max(0, y + by![1]!))];
-    if (event.key === "Enter") this.take(event, [0.5, 0.5]);
-    else if (by && this.session.view.aim === "rectangle") {
-      this.to = moved(this.to);
-      if (event.shiftKey) this.from = moved(this.from);
-    } else return;
+    const isRectangle = this.session.view.aim === "rectangle";
+    const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+    const inside = (value: number) => Math.min(1, Math.max(0, value));
+    const moved = ([x, y]: Place, step: Place): Place => [inside(x + by![0]! * step[0]), inside(y + by![1]! * step[1])];
+    if (event.key === "Enter") this.take(event, this.cross);
+    else if (by && isRectangle) {
+      this.to = moved(this.to, [kStep, kStep]);
+      if (event.shiftKey) this.from = moved(this.from, [kStep, kStep]);
+    } else if (by)
+      this.cross = moved(this.cross, event.shiftKey ? [kFineStep / this.clientWidth, kFineStep / this.clientHeight] : [kStep, kStep]);
+    else if ("+=-".includes(event.key)) pressOnPicture(this, "keydown", event.key);
+    else return;
     event.preventDefault();
     event.stopPropagation();
   };
 }
 customElements.define("svt-aim", AimLayer);
 
-/** The middle of the picture, where Enter picks. */
-function cross() {
-  return svg`<svg x="50%" y="50%" overflow="visible"><line x1="-9" x2="9" y1="0" y2="0"></line><line x1="0" x2="0" y1="-9" y2="9"></line></svg>`;
+/** Where Enter picks. */
+function cross([x, y]: Place) {
+  const arms = (name: string) =>
+    svg`<line class=${name} x1="-9" x2="9" y1="0" y2="0"></line><line class=${name} x1="0" x2="0" y1="-9" y2="9"></line>`;
+  return svg`<svg x="${100 * x}%" y="${100 * y}%" overflow="visible">${arms("under")}${arms("")}</svg>`;
 }

@@ -88,6 +88,10 @@ export class BookmarkList extends Part {
     `;
   }
 
+  override focus(): void {
+    this.renderRoot.querySelector<HTMLElement>("#keep-view")?.focus();
+  }
+
   /** Steps through the views in their order. */
   private walk() {
     const { views, at } = this;

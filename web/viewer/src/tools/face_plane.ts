@@ -5,7 +5,7 @@ import { add, cross, distance, dot, normalized, scale, sub } from "../camera/vec
 import type { Pick, Point } from "../engine";
 import type { Session } from "../session";
 import type { Camera, Section } from "../state/view_state";
-import { toolText } from "../tool_texts";
+import { lateText } from "../late_texts";
 
 export interface Face {
   point: Point;
@@ -79,9 +79,9 @@ export async function addPlaneAt(session: Session, x: number, y: number, size: [
     const metresPerPixel = (2 * halfHeight(camera) * depth) / size[1];
     const pixels = Math.min(kMost, Math.max(kLeast, (kVoxels * Math.max(...info.spacing)) / metresPerPixel));
     const face = first && (await faceAt((at, down) => engine.pick(at, down), [x, y], [pixels / size[0], pixels / size[1]], camera));
-    if (!face) return messages.tell(toolText("faceNothing"));
+    if (!face) return messages.tell(lateText("faceNothing"));
     view.set({ sections: [...view.state.sections, planeThrough(face, box)] });
-    messages.say(toolText("facePlane", { n: view.state.sections.length }));
+    messages.say(lateText("facePlane", { n: view.state.sections.length }));
   } catch (error) {
     messages.fail(error);
   }

@@ -4,6 +4,7 @@ import { html, nothing, css } from "lit";
 import type { Context } from "../engine";
 import type { Lens } from "../state/view_state";
 import { number, t } from "../texts";
+import { toolHint } from "../tool_texts";
 import { controls, Part } from "../ui/part";
 import { contextChoice } from "./context_choice";
 
@@ -32,7 +33,7 @@ export class LensTool extends Part {
           : nothing
       }
       ${contextChoice(lens.context, (context: Context) => this.change({ context }))}
-      <p class="quiet small">${t("lensHint")}</p>
+      <p class="quiet small">${toolHint("lens")}</p>
     `;
   }
 

@@ -4,7 +4,7 @@ import { css, html, nothing } from "lit";
 import { distance, dot, sub } from "../camera/vec";
 import type { Point } from "../engine";
 import { number, t } from "../texts";
-import { toolText } from "../tool_texts";
+import { toolHint, toolText } from "../tool_texts";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
 import { pathLength, polygonArea } from "./measure";
@@ -26,7 +26,7 @@ export class MeasureTool extends Part {
     const points = session.view.now.measured;
     const set = (measured: typeof points) => session.view.set({ measured });
     return html`
-      <p class="quiet">${t("measureHint")}</p>
+      <p class="quiet">${toolHint("measure")}</p>
       <dl aria-live="polite">
         <dt>${t("points")}</dt><dd id="measured-points">${points.length}</dd>
         ${

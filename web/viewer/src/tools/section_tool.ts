@@ -119,16 +119,16 @@ export class SectionTool extends Part {
           this.parts = { ...this.parts, [part]: (e.target as HTMLInputElement).checked };
         }} />${t(text)}</label>`,
     )}</div>
-    <div class="row"><button id="draw-sheets" title=${t("sheetsHint")} ?disabled=${this.isDrawing} @click=${() => void this.sheets()}>${t("sheets")}</button></div>`;
+    <div class="row"><button id="draw-sheets" title=${t("sheetsHint")} ?disabled=${this.isDrawing} @click=${() => void this.sheets((sheets) => save(zipOf(sheets.map((text, n) => ({ name: `sheet-${n + 1}.svg`, text }))), "sheets.zip"))}>${t("sheets")}</button>
+      <button id="print-sheets" title=${toolText("printHint")} ?disabled=${this.isDrawing} @click=${() => void this.sheets(async (sheets) => (await import("./print_sheets")).printSheets(sheets))}>${toolText("print")}</button></div>`;
   }
 
-  private async sheets(): Promise<void> {
+  private async sheets(use: (sheets: string[]) => unknown): Promise<void> {
     const { session } = this;
     this.isDrawing = true;
     this.requestUpdate();
     try {
-      const sheets = await session.volume.engine!.sheets(language() === "de" ? "de" : "en");
-      save(zipOf(sheets.map((text, n) => ({ name: `sheet-${n + 1}.svg`, text }))), "sheets.zip");
+      await use(await session.volume.engine!.sheets(language() === "de" ? "de" : "en"));
     } catch (error) {
       session.messages.fail(error);
     } finally {

@@ -5,8 +5,10 @@ import { Resolution } from "../canvas/resolution";
 import type { Camera, Section } from "../state/view_state";
 import { indexFeatures } from "../state/feature_index";
 import { firstOpen, rowsOf } from "../panels/tree_rows";
+import { ringBoxes, tilesOver } from "./hatch_tiles";
 import { pathLength, polygonArea } from "./measure";
 import { dragged, keptInside, middleOf, normalOf, planeOutline, rangeOf } from "./plane_outline";
+import { paperOf, printRules } from "./print_sheets";
 
 const box: Box = { low: [0, 0, 0], high: [4, 3, 2], axes: kWorldAxes };
 const section = (change: Partial<Section>): Section => ({ axis: "z", at: 1, flip: false, turn: 0, tilt: 0, ...change });
@@ -128,4 +130,32 @@ describe("tree rows", () => {
     expect(found.shown).toEqual([0, 1, 2]);
     expect(rowsOf(index, new Set(), "nothing").shown).toEqual([]);
   });
+});
+
+it("hatches as lines: boxes of rings, and all tiles over them", () => {
+  expect(ringBoxes("M1 2L3 2 3 5ZM10 -1L12 -1 12 0Z")).toEqual([
+    { left: 1, top: 2, right: 3, bottom: 5 },
+    { left: 10, top: -1, right: 12, bottom: 0 },
+  ]);
+  expect(ringBoxes("M1 2c3 2 3 5 4 4Z")).toBeNull();
+  const area = { left: 0, top: 0, right: 10, bottom: 4 };
+  expect(tilesOver([area], [2, 2], 0)).toHaveLength(10);
+  for (const degrees of [-45, -20, 30, 90]) {
+    const [width, height] = [1.4, 2.6];
+    const tiles = new Set(tilesOver([area], [width, height], degrees).map(String));
+    const [cos, sin] = [Math.cos((degrees * Math.PI) / 180), Math.sin((degrees * Math.PI) / 180)];
+    for (let x = 0.05; x < 10; x += 0.3)
+      for (let y = 0.05; y < 4; y += 0.3)
+        expect(tiles.has(String([Math.floor((x * cos + y * sin) / width), Math.floor((y * cos - x * sin) / height)]))).toBe(true);
+    // Few more than the area of the box needs.
+    expect(tiles.size).toBeLessThan((1.9 * 40) / (width * height) + 20);
+  }
+});
+
+it("sheets are printed in the size of their paper", () => {
+  expect(paperOf('<?xml?>\n<svg xmlns="a" width="420mm" height="297mm" viewBox="0 0 420 297">')).toEqual({ width: 420, height: 297 });
+  expect(paperOf('<svg viewBox="0 0 420 297"><rect width="3mm" height="3mm"/></svg>')).toBeNull();
+  const rules = printRules(['<svg width="420mm" height="297mm">', "<svg>"]);
+  expect(rules).toContain("@page sheet-0 { size: 420mm 297mm; margin: 0; } #printed > :nth-child(1) { page: sheet-0; }");
+  expect(rules).toContain("@page sheet-1 { size: A4 landscape;");
 });

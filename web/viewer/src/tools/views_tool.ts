@@ -8,6 +8,7 @@ import type { Session } from "../session";
 import { kViews } from "../state/member_controls";
 import type { Camera } from "../state/view_state";
 import { help, t, withUnit } from "../texts";
+import { toolHint } from "../tool_texts";
 import { icon } from "../ui/icons";
 import { memberSlider } from "../ui/member_slider";
 import { controls, Part } from "../ui/part";
@@ -49,6 +50,7 @@ export class ViewsTool extends Part {
     .views { display: grid; grid-template-columns: repeat(4, minmax(0, 1fr)); gap: 5px; margin-bottom: 6px; }
     .views button { padding: 4px 2px; gap: 4px; }
     .views kbd { font: inherit; font-size: 11px; color: var(--quiet); }
+    @media (pointer: coarse) { .views kbd { display: none; } }
     .line { display: grid; grid-template-columns: 84px 1fr 44px; gap: 10px; align-items: center; min-height: 36px; }
     output { text-align: right; font-variant-numeric: tabular-nums; }
   `,
@@ -74,7 +76,7 @@ export class ViewsTool extends Part {
             <output>${withUnit(fieldOfView, 0, kSceneMembers["/camera/fieldOfView"].unit)}</output></div>`
           : nothing
       }
-      ${session.view.isWalking ? html`<p class="small quiet">${t("walkHint")}</p>` : nothing}
+      ${session.view.isWalking ? html`<p class="small quiet">${toolHint("walk")}</p>` : nothing}
     `;
   }
 
