@@ -61,8 +61,10 @@ const readers = {
     const { parquetMetadata, parquetReadObjects } = await load("hyparquet", "src", "index.js");
     const buffer = arrayOf(file);
     const expected = csv(reference);
-    const notes = parquetMetadata(buffer).key_value_metadata.map((entry) => entry.key);
-    assert.deepEqual(notes, ["crs", "source", "unit"]);
+    const notes = parquetMetadata(buffer).key_value_metadata?.map((entry) => entry.key);
+    // Tables of quantities have none.
+    const isOfQuantities = expected.names.some((name) => ["netVolume", "areaOfB"].includes(name));
+    assert.deepEqual(notes, isOfQuantities ? undefined : ["crs", "source", "unit"]);
     const rows = await parquetReadObjects({ file: buffer });
     assert.equal(rows.length, expected.rows.length);
     rows.forEach((row, r) => {

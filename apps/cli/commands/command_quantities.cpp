@@ -162,6 +162,12 @@ Result<std::string> copyOfIfc(const QuantitiesArguments& arguments, const TakeOf
     return std::move(copy->text);
 }
 
+// The table of a file, with the names of the columns.
+Table fileTable(const QuantitiesArguments& arguments, const TakeOff& takeOff) {
+    if (arguments.stated) return statedTable(takeOff);
+    return takeOff.keys.empty() ? takeOffTable(takeOff, false) : takeOffSums(takeOff, false);
+}
+
 Result<void> writeTakeOff(const QuantitiesArguments& arguments, const TakeOff& takeOff, const Table& table) {
     if (arguments.output.empty()) return {};
     const std::string ending = endingOf(arguments.output);
@@ -175,6 +181,9 @@ Result<void> writeTakeOff(const QuantitiesArguments& arguments, const TakeOff& t
     } else if (ending == ".ifc") {
         SVT_TRY(copy, copyOfIfc(arguments, takeOff));
         text = std::move(*copy);
+    } else if (ending == ".parquet") {
+        SVT_TRY(bytes, writers::makeParquet(fileTable(arguments, takeOff)));
+        text = std::move(*bytes);
     } else if (ending == ".json") {
         text = takeOffJson(takeOff, arguments.stated).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     } else {
@@ -245,6 +254,9 @@ Result<int> printContactTable(const volume::SemanticVolume& volume, const Quanti
             about.notes.insert(about.notes.end(), notes.begin(), notes.end());
             SVT_TRY(book, contactBook(table, about, arguments.settings));
             text = std::move(*book);
+        } else if (ending == ".parquet") {
+            SVT_TRY(bytes, writers::makeParquet(table));
+            text = std::move(*bytes);
         } else {
             text = ending == ".json" ? writers::makeJson(table) : writers::makeCsv(headed);
         }
@@ -322,7 +334,7 @@ Result<int> runQuantities(const QuantitiesArguments& given) {
                      "'" + arguments.input.string() +
                          "' is not an IFC file; a copy with quantities (-o F.ifc) needs one as input");
     if (endingOf(arguments.output) == ".ifc" && !arguments.between.empty())
-        return Error(Code::BadArgument, "IFC files have no contacts; write them as .csv, .json or .xlsx");
+        return Error(Code::BadArgument, "IFC files have no contacts; write them as .csv, .json, .parquet or .xlsx");
     if (!arguments.between.empty() && arguments.between.size() != 2)
         return Error(Code::BadArgument, "--between needs two queries; give it twice");
     for (const std::string& query : {arguments.where, arguments.formwork})
@@ -343,10 +355,10 @@ Members<QuantitiesArguments> membersOf(const QuantitiesArguments*) noexcept {
                             {.value = "QUERY", .otherwise = "all components"}),
         member<&All::by>("--by", "sums by class, material, storey or other attributes, such as material,storey",
                          {.value = "KEYS"}),
-        member<&All::output>(
-            "-o,--output",
-            "write the rows to a file: .csv, .json, .xlsx, or .ifc for a copy of an IFC input with quantities",
-            {.value = "FILE", .file = FileUse::Output, .formats = "csv|json|xlsx|ifc"}),
+        member<&All::output>("-o,--output",
+                             "write the rows to a file: .csv, .json, .parquet, .xlsx, or .ifc for a copy of an IFC "
+                             "input with quantities",
+                             {.value = "FILE", .file = FileUse::Output, .formats = "csv|json|objectparquet|xlsx|ifc"}),
         member<&All::settingsFile>("--settings", "columns, units and language of tables (JSON)",
                                    {.value = "FILE", .group = "Output", .file = FileUse::OtherInput}),
         member<&All::exterior>("--exterior", "areas that outside air touches, by orientation", {.group = "Areas"}),

@@ -102,8 +102,18 @@ const std::vector<Written>& writtenByCommands() {
         {"query two.svt all -o OUT", ".parquet", "objectparquet"},
         {"quantities two.svt -q -o OUT", ".csv", "csv"},
         {"quantities two.svt -q -o OUT", ".json", "json"},
+        {"quantities two.svt -q -o OUT", ".parquet", "objectparquet"},
         {"quantities two.svt -q -o OUT", ".xlsx", "xlsx"},
         {"quantities small.ifc --spacing 1 -q -o OUT", ".ifc", "ifc"},
+        {"field add two.svt co2.csv --places places.csv --unit [ppm] -o OUT", ".svt", ""},
+        {"field remove field.svt co2 -o OUT", ".svt", ""},
+        {"simulate heat tower.svt --leaky -q -o OUT", ".svt", ""},
+        {"field stats field.svt co2 -o OUT", ".csv", "csv"},
+        {"field stats field.svt co2 -o OUT", ".json", "json"},
+        {"field stats field.svt co2 -o OUT", ".parquet", "objectparquet"},
+        {"field probe field.svt co2 --at 500002,5400003,101 -o OUT", ".csv", "csv"},
+        {"field probe field.svt co2 --at 500002,5400003,101 -o OUT", ".json", "json"},
+        {"field probe field.svt co2 --at 500002,5400003,101 -o OUT", ".parquet", "objectparquet"},
         {"diff two.gml two.gml --spacing 0.5 -o OUT", ".csv", "csv"},
         {"diff two.gml two.gml --spacing 0.5 -o OUT", ".svt", "svt"},
         {"diff two.gml two.gml --spacing 0.5 -o OUT", ".html", "html"},
@@ -124,6 +134,11 @@ TEST_F(Dash, IsStdoutForEveryCommandWithOneOutput) {
     runLineWell(folder.path(),
                 "svt sample tower --storeys 1 -o tower.gml && svt build tower.gml -o tower.svt --spacing 1 -q && "
                 "svt sample house -o small.ifc");
+    writeText(folder / "co2.csv", "time,sensor,value\n0,s1,400\n900,s1,500\n");
+    writeText(folder / "places.csv", "name,x,y,z\ns1,500002,5400003,101\n");
+    runLineWell(
+        folder.path(),
+        "svt field add two.svt co2.csv --places places.csv --unit [ppm] --medium all --name co2 -o field.svt -q");
     std::set<std::string> tested;
     for (const Written& written : writtenByCommands()) {
         const auto with = [&](const std::string& output) {
@@ -145,7 +160,7 @@ TEST_F(Dash, IsStdoutForEveryCommandWithOneOutput) {
         std::istringstream words(written.arguments);
         std::string command, second;
         words >> command >> second;
-        tested.insert(command == "city" ? command + "-" + second : command);
+        tested.insert(command == "city" || command == "field" ? command + "-" + second : command);
     }
     // Each command that writes a file is in the table.
     const nlohmann::json described = runSvtForJson(folder.path(), {"describe", "json"});

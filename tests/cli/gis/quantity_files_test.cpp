@@ -96,6 +96,33 @@ TEST_F(QuantityFiles, AWorkbookHasContacts) {
     EXPECT_TRUE(book.contains("About"));
 }
 
+// Rows, sums and contacts, with the names of the columns whatever the settings are.
+TEST_F(QuantityFiles, ParquetHasTheRowsOfCsv) {
+    writeText(folder / "two.gml", twoBoxes());
+    writeText(folder / "s.json", R"({"format": "svt-quantities", "version": 1, "language": "de"})");
+    const std::vector<std::pair<std::string, std::vector<std::string>>> tables{
+        {"rows", {}}, {"sums", {"--by", "class"}}, {"between", {"--between", "all", "--between", "all"}}};
+    for (const auto& [name, options] : tables) {
+        std::vector<std::string> words{"two.gml", "-o", name + ".parquet"};
+        words.insert(words.end(), options.begin(), options.end());
+        ASSERT_EQ(quantities(words).exitCode, 0) << name;
+        words[2] = name + ".csv";
+        ASSERT_EQ(quantities(words).exitCode, 0) << name;
+        words[2] = "again.parquet";
+        words.insert(words.end(), {"--settings", "s.json"});
+        ASSERT_EQ(quantities(words).exitCode, 0) << name;
+        const std::string bytes = readText(folder / (name + ".parquet"));
+        EXPECT_EQ(bytes.substr(0, 4), "PAR1");
+        EXPECT_EQ(bytes.substr(bytes.size() - 4), "PAR1");
+        EXPECT_EQ(readText(folder / "again.parquet"), bytes);
+    }
+    std::string said;
+    for (const auto& [name, options] : tables)
+        for (const char* reader : {"parquet ", "arrow "})
+            if (!isRun(folder.path(), nodeOf("read_formats.mjs") + reader + name + ".parquet " + name + ".csv", said))
+                GTEST_SKIP() << said;
+}
+
 TEST_F(QuantityFiles, SettingsChooseColumnsUnitsAndLanguage) {
     writeText(folder / "two.gml", twoBoxes());
     writeText(folder / "s.quantities.json",

@@ -64,8 +64,18 @@ const LimitedOutput kLimitedOutputs[] = {
     {"--output", {"query", "two.svt", "all", "-o", "o.parquet"}},
     {"--output", {"quantities", "two.svt", "-o", "o.csv"}},
     {"--output", {"quantities", "two.svt", "-o", "o.json"}},
+    {"--output", {"quantities", "two.svt", "-o", "o.parquet"}},
     {"--output", {"quantities", "two.svt", "-o", "o.xlsx"}},
     {"--output", {"quantities", "small.ifc", "--spacing", "1", "-o", "o.ifc"}},
+    {"--output", {"field-add", "two.svt", "co2.csv", "--places", "places.csv", "--unit", "[ppm]", "-o", "o.svt"}},
+    {"--output", {"field-remove", "field.svt", "co2", "-o", "o.svt"}},
+    {"--output", {"simulate-heat", "tower.svt", "--leaky", "-o", "o.svt"}},
+    {"--output", {"field-stats", "field.svt", "co2", "-o", "o.csv"}},
+    {"--output", {"field-stats", "field.svt", "co2", "-o", "o.json"}},
+    {"--output", {"field-stats", "field.svt", "co2", "-o", "o.parquet"}},
+    {"--output", {"field-probe", "field.svt", "co2", "--at", "500002,5400003,101", "-o", "o.csv"}},
+    {"--output", {"field-probe", "field.svt", "co2", "--at", "500002,5400003,101", "-o", "o.json"}},
+    {"--output", {"field-probe", "field.svt", "co2", "--at", "500002,5400003,101", "-o", "o.parquet"}},
     {"--output", {"diff", "two.svt", "two.gml", "-o", "o.csv"}},
     {"--output", {"diff", "two.svt", "two.gml", "-o", "o.json"}},
     {"--output", {"diff", "two.svt", "two.gml", "-o", "o.svt"}},
@@ -87,6 +97,10 @@ protected:
         runSvtWell(folder.path(), {"sample", "tower", "--storeys", "1", "-o", "tower.gml"});
         runSvtWell(folder.path(), {"build", "tower.gml", "-o", "tower.svt", "--spacing", "1"});
         runSvtWell(folder.path(), {"sample", "house", "-o", "small.ifc"});
+        writeText(folder / "co2.csv", "time,sensor,value\n0,s1,400\n900,s1,500\n");
+        writeText(folder / "places.csv", "name,x,y,z\ns1,500002,5400003,101\n");
+        runSvtWell(folder.path(), {"field-add", "two.svt", "co2.csv", "--places", "places.csv", "--unit", "[ppm]",
+                                   "--medium", "all", "--name", "co2", "-o", "field.svt"});
     }
 
     // At a limit of a few bytes and at one that the largest file reaches at its half, the command fails and leaves no output; of
