@@ -23,7 +23,7 @@ peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth valgrin
 readers=(ffmpeg python3-nibabel python3-tifffile python3-zarr python3-vtk9 python3-networkx python3-numcodecs
   python3-openvdb python3-xarray python3-pandas python3-geopandas python3-netcdf4 python3-dask
   jupyter-nbconvert python3-ipykernel libembree-dev)
-web=(emscripten libfast-float-dev dpkg-dev chromium)
+web=(emscripten libfast-float-dev dpkg-dev chromium-headless-shell)
 slurm=(slurmctld slurmd slurm-client munge python3-yaml)
 python=(python3-dev pybind11-dev python3-numpy python3-scipy)
 site=(mkdocs mkdocs-material doxygen doxygen-awesome-css python3-pil)

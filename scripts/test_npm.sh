@@ -57,7 +57,7 @@ echo "npm: the command answers as the program does"
 
 # The library and the web component, as programs and pages use them.
 tests=("$root"/tests/npm/packed/*_test.mjs)
-if [ ! -x "${SVT_CHROMIUM:-/usr/bin/chromium}" ]; then
+if [ ! -x "${SVT_CHROMIUM:-/usr/bin/chromium-headless-shell}" ]; then
   echo "skipped: the web component in a page: chromium is missing (scripts/setup.sh web)"
   tests=("$root"/tests/npm/packed/{library,bundles,readme}_test.mjs)
 fi

@@ -12,7 +12,7 @@ case $what in
   units) exec npx --no-install vitest run ;;
   page)
     shift
-    [ -x "${SVT_CHROMIUM:-/usr/bin/chromium}" ] || skip "chromium is missing (scripts/setup.sh web)"
+    [ -x "${SVT_CHROMIUM:-/usr/bin/chromium-headless-shell}" ] || skip "chromium is missing (scripts/setup.sh web)"
     [ -f ../../build/release/share/svt/viewer/index.html ] || skip "the page is not built (make viewer)"
     tests=("${@/%/.test.mjs}")
     [ $# -gt 0 ] || mapfile -t tests < <(cd e2e && ls -- *.test.mjs)

@@ -6,7 +6,7 @@ import { fileURLToPath, pathToFileURL } from "node:url";
 
 const [file, picture] = process.argv.slice(2);
 const viewer = fileURLToPath(new URL("../../web/viewer/package.json", import.meta.url));
-const executablePath = process.env.SVT_CHROMIUM ?? "/usr/bin/chromium";
+const executablePath = process.env.SVT_CHROMIUM ?? "/usr/bin/chromium-headless-shell";
 let chromium;
 try {
   ({ chromium } = createRequire(viewer)("playwright-core"));

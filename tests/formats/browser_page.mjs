@@ -14,7 +14,7 @@ const types = {
   ".wasm": "application/wasm",
   ".x3d": "model/x3d+xml",
 };
-const browserPath = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
+const browserPath = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].find(existsSync);
 const playwrightIn = (oracles) => join(resolve(oracles), "node_modules", "playwright-core", "index.mjs");
 
 /// Ends with exit code 77 (skipped) where Chromium, playwright-core or one of the files is not there.
