@@ -25,7 +25,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from typing import TextIO
+from typing import Optional, TextIO
 
 os.environ["SVT_NO_CONFIG"] = "1"  # files with defaults of the user do not change results
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -135,7 +135,7 @@ def turns() -> list[str]:
     return sorted((name for name in order if CHECKS[name].is_heavy), key=turn)
 
 
-def exit_code_of(command: str, output: TextIO, seconds: float | None) -> int | None:
+def exit_code_of(command: str, output: TextIO, seconds: Optional[float]) -> Optional[int]:
     """Runs a command of bash; none if it was still running after some seconds and was ended with all its processes."""
     process = subprocess.Popen(
         ["bash", "-euo", "pipefail", "-c", command],
@@ -153,7 +153,7 @@ def exit_code_of(command: str, output: TextIO, seconds: float | None) -> int | N
         return None
 
 
-def run(name: str, tree: str, seconds: float | None = None) -> dict | None:
+def run(name: str, tree: str, seconds: Optional[float] = None) -> Optional[dict]:
     """Runs a check, keeps its result, and returns it; none, and nothing kept, if it was still running after some seconds."""
     log = WORK / f"{name.replace('/', '-')}.log"
     log.parent.mkdir(parents=True, exist_ok=True)
