@@ -42,9 +42,10 @@ struct RoomArea {
     double volume = 0;               ///< m3; 0: unknown
     double countedArea = 0;          ///< m2 in sums: `area` without the floors of smaller rooms in it; 0: a zone
     double countedVolume = 0;        ///< m3 in sums
-    bool isExact = false;            ///< from a closed mesh; otherwise from a section of its voxels
-    bool isZone = false;             ///< not a room, see RoomShare
-    bool isShared = false;           ///< smaller rooms claim a part of it, see RoomShare
+    double unclaimedArea = 0;  ///< m2 of a zone that no smaller room claims, by its share of the volume; in no sum
+    bool isExact = false;      ///< from a closed mesh; otherwise from a section of its voxels
+    bool isZone = false;       ///< not a room, see RoomShare
+    bool isShared = false;     ///< smaller rooms claim a part of it, see RoomShare
 };
 
 /// Sums of a level, m2. Space that rooms share counts once, for the smallest one.

@@ -265,6 +265,7 @@ private:
             const double own = room.isZone ? 0 : tables_.roomShares()[room.label].own;
             room.countedVolume = room.volume * own;
             room.countedArea = room.isShared ? room.area * own : room.area;
+            if (room.isZone) room.unclaimedArea = room.area * tables_.roomShares()[room.label].own;
             if (room.isShared && !room.isZone && room.isExact) {
                 if (!solidRooms) solidRooms = keepRooms();
                 SVT_TRY(area, ownArea(room, *solidRooms, sections));
@@ -370,11 +371,12 @@ std::string namesOf(const std::vector<const RoomArea*>& rooms) {
 void reportShared(const FloorAreas& areas, std::size_t level, const std::string& name,
                   const volume::SemanticVolume& volume, Diagnostics& log) {
     std::vector<const RoomArea*> zones, overlapping;
-    double shared = 0;
+    double shared = 0, unclaimed = 0;
     for (const RoomArea& room : areas.rooms) {
         if (room.level != level || !room.isShared) continue;
         (room.isZone ? zones : overlapping).push_back(&room);
         if (!room.isZone) shared += room.area - room.countedArea;
+        unclaimed += room.unclaimedArea;
     }
     const auto report = [&](const std::string& text) {
         log.add(Severity::Warning, Code::RoomsShareSpace, text, {volume.source, 0, 0, {}});
@@ -382,8 +384,8 @@ void reportShared(const FloorAreas& areas, std::size_t level, const std::string&
     if (!zones.empty())
         report(
             fmt::format("the level {} has zones that consist mostly of other rooms: {}; they do not count in sums "
-                        "and have no stamps",
-                        name, namesOf(zones)));
+                        "and have no stamps. No other room covers about {:.1f} m2 of their floor",
+                        name, namesOf(zones), unclaimed));
     if (!overlapping.empty())
         report(fmt::format("the level {} has rooms that overlap smaller ones by {:.2f} m2, which count once: {}", name,
                            shared, namesOf(overlapping)));

@@ -70,6 +70,8 @@ TEST(FloorAreas, ZonesDoNotCountAndSharedFloorsCountOnce) {
     EXPECT_TRUE(rooms["gross"].isZone);
     EXPECT_NEAR(rooms["gross"].area, 84, 1e-3) << "its own area stays";
     EXPECT_EQ(rooms["gross"].countedArea, 0);
+    EXPECT_NEAR(rooms["gross"].unclaimedArea, 4, 1e-2);
+    EXPECT_EQ(rooms["hall"].unclaimedArea, 0);
     EXPECT_FALSE(rooms["hall"].isZone);
     EXPECT_TRUE(rooms["hall"].isShared);
     EXPECT_NEAR(rooms["hall"].area, 48, 1e-3);
@@ -86,6 +88,7 @@ TEST(FloorAreas, ZonesDoNotCountAndSharedFloorsCountOnce) {
     ASSERT_EQ(log.count(Code::RoomsShareSpace), 2u);
     const std::string zones = log.items()[0].message, overlap = log.items()[1].message;
     EXPECT_NE(zones.find("mostly of other rooms: 'flat', 'gross';"), std::string::npos) << zones;
+    EXPECT_NE(zones.find("No other room covers about 4.0 m2 of their floor"), std::string::npos) << zones;
     EXPECT_NE(overlap.find("by 4.00 m2, which count once: 'hall'"), std::string::npos) << overlap;
     EXPECT_EQ(log.count(Code::NetExceedsGross), 0u);
     // Plans omit stamps of zones.
