@@ -46,8 +46,8 @@ TEST_F(CitySources, ACompoundCrsKeepsFilesOfItsHorizontalPart) {
     EXPECT_EQ(planned.exitCode, 0) << planned.toString();
     EXPECT_NE(planned.out.find("12 features"), std::string::npos) << planned.toString();
     EXPECT_NE(planned.out.find(" 0 left out"), std::string::npos) << planned.toString();
-    const auto planned = nlohmann::json::parse(readText(folder / "town/plan/plan.json"));
-    EXPECT_EQ(planned.at("crs"), 28992);
+    const auto written = nlohmann::json::parse(readText(folder / "town/plan/plan.json"));
+    EXPECT_EQ(written.at("crs"), 28992);
 }
 
 TEST_F(CitySources, TheGivenCrsStays) {
