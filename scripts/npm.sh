@@ -33,7 +33,7 @@ web/viewer/node_modules/.bin/tsc --project web/npm/tsconfig.json --noEmit false 
 cp "$npm/declarations/npm/lib/run.d.mts" "$svt/types/run.d.mts"
 
 node web/npm/complete.mjs web/npm/package.json web/npm "$repository" >"$svt/package.json"
-cp web/npm/README.md LICENSE "$svt"
+cp web/npm/README.md LICENSE NOTICE "$svt"
 node web/viewer/sbom.mjs "$page/sbom.cdx.json" >"$svt/sbom.cdx.json"
 cp web/npm/bin/svt.mjs "$svt/bin"
 cp web/npm/lib/host.mjs web/npm/lib/server.mjs web/npm/lib/run.mjs "$svt/lib"

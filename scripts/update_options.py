@@ -166,7 +166,7 @@ def value_schema(member: dict) -> dict:
         return {"const": choices[0]} if len(choices) == 1 else {"enum": choices}
     if member["kind"] == "text":
         return {"type": "string"}
-    if member["minimum"] == member["maximum"]:
+    if "minimum" in member and member["minimum"] == member.get("maximum"):
         return {"const": int(member["minimum"])}
     number = {"type": "integer" if member["kind"] == "whole" else "number"}
     for bound in ("minimum", "maximum"):

@@ -9,8 +9,8 @@
 
 namespace svt {
 
-/// Stable codes, grouped: 1xx read, 2xx geometry, 3xx voxel, 4xx volume, 5xx render, 6xx cities, 9xx program. The
-/// meaning of a code never changes.
+/// Stable codes, grouped: 1xx read, 2xx geometry, 3xx voxel, 4xx volume, 5xx render, 6xx cities, 7xx fields,
+/// 9xx program. The meaning of a code never changes.
 enum class Code : std::uint16_t {
     // 1xx: reading a model
     CannotOpen = 101,         ///< file missing or unreadable
@@ -139,6 +139,14 @@ enum class Code : std::uint16_t {
     Replica = 610,         ///< a feature with the same id and content as an earlier one
     IdConflict = 611,      ///< a feature with the id of a feature of an earlier file, but other content
     ManySkipped = 612,     ///< a plan that would leave out more features than allowed
+    // 7xx: fields
+    BadField = 701,         ///< a field, or a file with one, that cannot be read or is not valid
+    UnknownField = 702,     ///< a name that no field of the volume has
+    FieldOutside = 703,     ///< a field that covers no part of the volume
+    FieldInPart = 704,      ///< a file whose last values are missing or were left out
+    UnknownMaterial = 705,  ///< components without known thermal properties; defaults assumed
+    AirLeak = 706,          ///< a room that is connected with the outside through a gap
+    NotConverged = 707,     ///< a simulation that did not reach its tolerance
     // 9xx: program
     BadQuery = 901,         ///< a query that cannot be parsed
     NothingSelected = 902,  ///< a query that selects nothing

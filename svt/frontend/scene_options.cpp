@@ -190,7 +190,7 @@ void addInsets(const SceneOptions& arguments, Scene& scene) {
     constexpr illustrate::Inset::Corner kFromLeft[] = {BottomLeft, TopLeft, BottomRight, TopRight};
     for (const std::string& query : arguments.insets) {
         illustrate::Inset inset;
-        for (const auto corner : scene.colorBy.empty() ? kFromRight : kFromLeft) {
+        for (const auto corner : scene.colorBy.empty() && !scene.field ? kFromRight : kFromLeft) {
             inset.corner = corner;
             if (std::none_of(scene.insets.begin(), scene.insets.end(),
                              [&](const illustrate::Inset& other) { return other.corner == corner; }))
@@ -258,6 +258,12 @@ Result<Scene> SceneOptions::stillScene(Scene scene, const std::vector<std::strin
     if (isSeries && !isGiven("/camera/fit")) scene.camera.fit = illustrate::Fit::All;
     if (scene.sun && scene.sun->time.empty())
         return Error(Code::BadArgument, "--place is only used for the position of the sun; give the time with --sun");
+    if (scene.field && scene.field->name.empty())
+        return Error(Code::BadArgument,
+                     "--time, --range, --isolines, --map and --per are for a field; give its name with --field");
+    if (scene.field && scene.field->range && !((*scene.field->range)[0] < (*scene.field->range)[1]))
+        return Error(Code::BadArgument, fmt::format("--range {:g},{:g}: expected a first value below the second",
+                                                    (*scene.field->range)[0], (*scene.field->range)[1]));
     if (scene.motion && !scene.motion->keys.empty() && scene.motion->keys.back().at > scene.motion->seconds)
         return Error(Code::BadArgument, fmt::format("--seconds {} ends before the last key of the scene, at {} s",
                                                     scene.motion->seconds, scene.motion->keys.back().at));

@@ -23,11 +23,14 @@ struct ColorScale {
         Vec3f color;  ///< sRGB, 0..1
         std::size_t count = 0;
     };
-    std::string title;           ///< the key, with the unit of its values: "volume (m3)"
-    bool isRamp = false;         ///< numbers from `low` to `high`; false: the entries
-    double low = 0, high = 0;    ///< low <= high
-    std::vector<Entry> entries;  ///< palette: by text, or by count if there are more than colours; then the others
-    std::size_t missing = 0;     ///< components without a value: gray
+    std::string title;               ///< the key, with the unit of its values: "volume (m3)"
+    bool isRamp = false;             ///< numbers from `low` to `high`; false: the entries
+    double low = 0, high = 0;        ///< low <= high
+    std::vector<Entry> entries;      ///< palette: by text, or by count if there are more than colours; then the others
+    std::size_t missing = 0;         ///< components without a value: gray
+    std::vector<Vec3f> ramp;         ///< colours of a ramp at equal steps from `low` to `high`; empty: viridis
+    std::string missingText;         ///< beside the gray box; empty: by `missing`
+    std::vector<std::string> notes;  ///< further lines at the end
 };
 
 /// Colours for rows of labels.

@@ -10,6 +10,7 @@
 #include <svt/core/vec.hpp>
 #include <svt/illustrate/color_by.hpp>
 #include <svt/illustrate/shell_groups.hpp>
+#include <svt/image/color_map.hpp>
 #include <svt/render/frame_spec.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
@@ -157,6 +158,26 @@ struct HatchLook {
     friend bool operator==(const HatchLook&, const HatchLook&) = default;
 };
 
+/// A figure of a field over the voxels of a component.
+enum class FieldFigure : std::uint8_t { Mean, Max, Min };
+constexpr auto namesOf(FieldFigure) {
+    return std::to_array<Name<FieldFigure>>(
+        {{FieldFigure::Mean, "mean"}, {FieldFigure::Max, "max"}, {FieldFigure::Min, "min"}});
+}
+
+/// A field of the volume (svt/fields) as the colours of opaque surfaces and cut faces.
+struct SceneField {
+    std::string name;
+    std::optional<double> time;  ///< seconds, within the times of the field; unset: the first
+    std::optional<std::array<double, 2>>
+        range;            ///< values of the ends of the map; unset: the least and largest of all times
+    double isolines = 0;  ///< step between lines of equal value, in the unit of the field; 0: none
+    image::ColorMap map = image::ColorMap::Viridis;
+    std::optional<FieldFigure>
+        per;  ///< each component has one colour, by this figure of its own voxels; unset: by place
+    friend bool operator==(const SceneField&, const SceneField&) = default;
+};
+
 struct Scene {
     std::int32_t width = 1280, height = 720;  ///< pixels
     int samples = 4;                          ///< rays per pixel
@@ -167,11 +188,12 @@ struct Scene {
     BorderLook lines;
     HatchLook hatches;
     std::optional<float> ambientOcclusion;
-    std::vector<std::string> names;  ///< queries: labels with name tags beside the picture, see name_tags.hpp
-    std::string colorBy;             ///< key, see color_by.hpp; adds a legend; empty: colours by style
-    bool hasLegend = true;           ///< if colorBy is set
-    std::string title;               ///< drawn into the picture; empty: none
-    bool hasScaleBar = false;        ///< parallel cameras only
+    std::vector<std::string> names;   ///< queries: labels with name tags beside the picture, see name_tags.hpp
+    std::string colorBy;              ///< key, see color_by.hpp; adds a legend; empty: colours by style
+    std::optional<SceneField> field;  ///< a ScenePainter draws it, see showField(); adds a legend
+    bool hasLegend = true;            ///< if colorBy or a field is set
+    std::string title;                ///< drawn into the picture; empty: none
+    bool hasScaleBar = false;         ///< parallel cameras only
     bool hasNorthArrow = false;
     double explode = 0;  ///< distance between storeys drawn apart, metres, see exploded.hpp
     std::optional<Sun> sun;
@@ -214,7 +236,8 @@ void addCutaway(Scene& scene, const std::string& query, double margin);
 [[nodiscard]] std::vector<VolumeRepresentation> volumeRepresentations(const Scene& scene);
 /// The frame of `scene` on `volume`. Pass::volume is an index into volumeRepresentations(scene).
 /// \return the frame, which passes checkFrameSpec(), or BadSection, BadQuery, NothingSelected, BadCamera, BadFrame;
-///         BadArgument if lines or meshes are requested and the volume was built without them, or for colorBy()
+///         BadArgument if lines or meshes are requested and the volume was built without them, or for colorBy(). A scene
+///         with a field is BadArgument: only a ScenePainter draws it.
 [[nodiscard]] Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::SemanticVolume& volume);
 /// The same with existing rows, which must be those of volume.labels.
 /// \param scale  receives the meaning of the colours if the scene has colorBy

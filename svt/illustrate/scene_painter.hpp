@@ -3,6 +3,7 @@
 /// Draws scenes of one volume. Keeps the representations of the volume (hulls, levels of detail, bricks); each is made
 /// on first use.
 
+#include <svt/fields/field.hpp>
 #include <svt/illustrate/details.hpp>
 #include <svt/illustrate/scene.hpp>
 #include <svt/render/ray_caster.hpp>
@@ -19,6 +20,8 @@
 #include <vector>
 
 namespace svt::illustrate {
+
+class FieldView;
 
 /// A drawn scene, and the frame description that it was drawn from.
 struct Painting {
@@ -54,6 +57,13 @@ public:
     /// \param source  of the painter's volume; must outlive the painter
     void drawBy(const render::RunSource* source) noexcept { source_ = source; }
 
+    /// From now on scenes with Scene::field draw this field: cut faces and visible opaque surfaces have the colour of its
+    /// value at their place. nullptr: scenes with a field are an error. Storeys drawn apart and details are an error.
+    /// \param field  of the painter's volume; must outlive the painter
+    /// \return success, or an error of fields::FieldSampler::make()
+    /// Cost: that of FieldSampler::make().
+    [[nodiscard]] Result<void> showField(const fields::Field* field);
+
     /// From now on `detail` replaces the same part of the volume, see details.hpp. Drafts ignore it.
     /// \param detail  processed by joinLabels(); must outlive the painter
     void addDetail(const volume::SemanticVolume& detail);
@@ -87,7 +97,7 @@ public:
 
     /// Renders a frame from the volumes that the passes draw, and the frame description.
     using Draw = std::function<Result<render::Frame>(std::span<const render::DrawnVolume>, const render::FrameSpec&)>;
-    /// Like the first paint(), with another renderer.
+    /// Like the first paint(), with another renderer. A scene with a field is an error.
     [[nodiscard]] Result<Painting> paint(const Scene& scene, const Draw& draw);
 
     /// The painter of the volume with storeys drawn `distance` apart, made on first request; this painter for 0. It
@@ -111,11 +121,13 @@ private:
     using Paint = std::function<Result<Painting>(const Scene&)>;
     [[nodiscard]] Result<void> addInsets(const Scene& scene, const Paint& paint, Painting& painting) const;
     [[nodiscard]] std::optional<analyze::SampleBox> targetOf(const Scene& scene) const;
+    [[nodiscard]] Result<Painting> paintWith(const Scene& scene, const Draw& draw);
     [[nodiscard]] Result<Painting> paintPlain(const Scene& scene, const Draw& draw);
     [[nodiscard]] Result<Painting> draftPlain(const Scene& scene, const render::CastOptions& options);
-    [[nodiscard]] Result<Painting> finish(const Scene& scene, const analyze::LabelRows& rows, const ColorScale& scale,
-                                          render::FrameSpec spec, std::span<const render::DrawnVolume> drawn,
+    [[nodiscard]] Result<Painting> finish(const Scene& scene, const analyze::LabelRows& rows, ColorScale scale,
+                                          render::FrameSpec spec, std::span<render::DrawnVolume> drawn,
                                           const Draw& draw) const;
+    [[nodiscard]] Result<void> checkField(const Scene& scene) const;
 
     const volume::SemanticVolume& volume_;
     int threads_;
@@ -131,6 +143,7 @@ private:
     };
     std::vector<Detail> details_;
     std::vector<StyleMixture> mixtures_;
+    std::unique_ptr<const FieldView> field_;
 };
 
 }  // namespace svt::illustrate

@@ -12,6 +12,7 @@
 #include <svt/volume/grid.hpp>
 #include <svt/volume/lod_pyramid.hpp>
 
+#include <cstdint>
 #include <span>
 
 namespace svt::render {
@@ -34,6 +35,23 @@ struct Frame {
     image::Image<image::Rgba8> color;    ///< sRGB, alpha not premultiplied
     image::Image<volume::Scalar> label;  ///< of the ray through the pixel's centre; 0: background
     image::Image<float> depth;  ///< metres along the view direction to the start of the label; +inf: background
+};
+
+/// Colours of opaque surfaces by their place, such as from a field, in place of those of their styles.
+class SurfacePaint {
+public:
+    struct Point {
+        std::uint32_t pass = 0;    ///< number of the pass
+        volume::Scalar label = 0;  ///< as Frame::label
+        double depth = 0;          ///< metres along the view direction
+        Vec3d world{};
+        Vec3d normal{};      ///< world space, unit length, towards the viewer
+        bool isCap = false;  ///< on the cut face of a clip
+        Vec3f color{};       ///< of its style, linear light
+    };
+    virtual ~SurfacePaint() = default;
+    /// \return linear light, before shading. Several threads call this at once.
+    [[nodiscard]] virtual Vec3f colorAt(const Point& point) const noexcept = 0;
 };
 
 /// A representation of a semantic volume that passes can draw: the volume itself, a level of detail, or its hulls. All
@@ -59,11 +77,17 @@ public:
     [[nodiscard]] const volume::LodLevel* level() const noexcept { return level_; }  ///< null: full resolution
     [[nodiscard]] const RunSource* source() const noexcept { return source_; }       ///< null: the bricks
 
+    /// From now on `paint` gives the colours of opaque surfaces of this volume. Translucent parts, lines and hatches keep
+    /// those of the frame. null: the styles. Must outlive this. Only castRays() and castRaysReference() use it.
+    void paintBy(const SurfacePaint* paint) noexcept { paint_ = paint; }
+    [[nodiscard]] const SurfacePaint* paint() const noexcept { return paint_; }
+
 private:
     const volume::BrickVolume* bricks_;
     const volume::Grid* grid_;
     const volume::LodLevel* level_ = nullptr;
     const RunSource* source_ = nullptr;
+    const SurfacePaint* paint_ = nullptr;
 };
 
 /// Draws `volumes` as described by `spec`; Pass::volume is the index of the volume that a pass draws.

@@ -16,6 +16,7 @@ namespace svt::writers {
 struct DrawingOptions {
     double scale = 100;  ///< SVG and PDF: 100 draws 1 m as 10 mm; 0.01 to 10^7
     DxfOptions dxf{};
+    FieldLook field{};  ///< for all formats with a drawing; replaces that of `dxf`
 };
 
 /// The drawing as text. `volume` is the volume from which the drawing was made. Equal drawings give equal bytes.

@@ -13,6 +13,7 @@
 #include <svt/drawing/external_parts.hpp>
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/record/members.hpp>
+#include <svt/writers/field_look.hpp>
 
 #include <string>
 #include <vector>
@@ -25,6 +26,9 @@ struct DxfOptions {
     bool world = false;
     /// External walls and doors for ISO layers, for several drawings of a volume; null: they are found.
     const std::vector<drawing::ExternalPart>* externals = nullptr;
+    /// A field: lines and their values on layers FIELD_LINES and FIELD_TEXT, each band as solid hatches on a layer of its
+    /// own in the nearest of AutoCAD's 255 colours, and a legend beside the drawing.
+    FieldLook field{};
 };
 
 /// The options that a user can set.

@@ -12,6 +12,7 @@
 /// decimals.
 
 #include <svt/drawing/section_drawing.hpp>
+#include <svt/writers/field_look.hpp>
 
 #include <string>
 
@@ -19,6 +20,9 @@ namespace svt::writers {
 
 /// The drawing as GeoJSON text, one feature per line. `volume` is the volume from which the drawing was made. `area` is
 /// in m2 in the section plane. Exterior rings of plans are counter-clockwise as seen from above.
-[[nodiscard]] std::string makeGeojson(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume);
+/// \param look  a field: a feature for each value of its lines, for each band with its colour, and for the places without
+///              a value
+[[nodiscard]] std::string makeGeojson(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                                      const FieldLook& look = {});
 
 }  // namespace svt::writers

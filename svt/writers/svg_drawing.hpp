@@ -6,12 +6,14 @@
 ///     <g class="WallSurface">                          one group per class.
 ///       <path class="WallSurface" data-id="wall-1" data-area="1.23" d="..."><title>wall-1: Outer wall</title></path>
 ///     </g>
+///     <g class="field">                                bands and lines of a field, if there is one, with their values.
 ///     <g class="thin">, <g class="bold">               lines between components, each once.
 ///     <g class="names">                                rooms.
 ///     <g class="title">                                model, plane, scale, scale bar.
 
 #include <svt/core/result.hpp>
 #include <svt/drawing/section_drawing.hpp>
+#include <svt/writers/field_look.hpp>
 
 #include <string>
 
@@ -19,6 +21,7 @@ namespace svt::writers {
 
 struct SvgOptions {
     double scale = 100;  ///< 100 draws 1 m as 10 mm; 0.01 to 10^7
+    FieldLook field{};   ///< drawn over the cut components
 };
 
 /// The drawing as SVG text. `volume` is the volume from which the drawing was made. Equal drawings give equal bytes.

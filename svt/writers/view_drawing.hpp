@@ -5,6 +5,7 @@
 
 #include <svt/core/result.hpp>
 #include <svt/drawing/line_view.hpp>
+#include <svt/writers/field_look.hpp>
 #include <svt/writers/pdf_file.hpp>
 
 #include <string>
@@ -22,9 +23,11 @@ namespace svt::writers {
 
 /// A section on the page of makeSvg(), with layers as in makePdfSheets().
 /// \param scale  100 draws 1 m as 10 mm; 0.01 to 10^7
+/// \param look   a field on the section
 /// \return the file, or BadArgument: a scale out of range, or a page larger than the 5.08 m that PDF allows; NoCairo
 ///         or CannotWrite
 [[nodiscard]] Result<PdfFile> makeSectionPdf(const drawing::SectionDrawing& drawing,
-                                             const volume::SemanticVolume& volume, double scale);
+                                             const volume::SemanticVolume& volume, double scale,
+                                             const FieldLook& look = {});
 
 }  // namespace svt::writers

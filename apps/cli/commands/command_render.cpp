@@ -1,5 +1,6 @@
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/options/catalog.hpp>
+#include <apps/cli/options/field_input.hpp>
 #include <apps/cli/options/load_volume.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/film.hpp>
@@ -15,6 +16,7 @@
 #include <svt/drawing/building_levels.hpp>
 #include <svt/drawing/line_view.hpp>
 #include <svt/drawing/section_plane.hpp>
+#include <svt/fields/field.hpp>
 #include <svt/frontend/scene_options.hpp>
 #include <svt/illustrate/color_by.hpp>
 #include <svt/illustrate/details.hpp>
@@ -284,6 +286,24 @@ Result<void> checkForLines(const RenderArguments& arguments, const illustrate::S
                  fmt::format("line drawings do not support {}; leave it out, or write a .png", fmt::join(found, ", ")));
 }
 
+// Refuses what cannot be drawn with a field: it is never left out silently.
+Result<void> checkForField(const RenderArguments& arguments, const illustrate::Scene& scene) {
+    if (!scene.field) return {};
+    const std::pair<bool, const char*> needs[] = {{arguments.gl, "--gl"},
+                                                  {isLineDrawing(arguments.output), "-o .svg or .pdf"},
+                                                  {!arguments.with.empty(), "--with"},
+                                                  {isCity(arguments.input), "a city"},
+                                                  {scene.explode != 0, "--explode (explode of a scene)"}};
+    for (const auto& [isGiven, option] : needs)
+        if (isGiven)
+            return Error(
+                Code::BadArgument,
+                fmt::format("--field (field of a scene) does not support {}; leave out one of the two; svt section "
+                            "draws fields as SVG, PDF, DXF and GeoJSON",
+                            option));
+    return {};
+}
+
 // Refuses parts of a scene that are drawn only from voxels.
 Result<void> checkForExact(const RenderArguments& arguments, const illustrate::Scene& scene) {
     if (arguments.surfaces != SurfaceSource::Exact) return {};
@@ -427,6 +447,16 @@ Result<int> runVolumeRender(const RenderArguments& arguments, Series& series, co
     for (const volume::SemanticVolume& detail : *details) painter.addDetail(detail);
     SVT_TRY(faces, facesFor(arguments, *volume));
     painter.drawBy(faces->get());
+    std::optional<fields::Field> field;
+    if (moving.field) {
+        SVT_TRY(read, readFieldOf(arguments.input, moving.field->name));
+        field = std::move(*read);
+        SVT_DO(painter.showField(&*field));
+        const Vec3d spacing = volume->grid.spacing();
+        if (field->head.kind == fields::FieldKind::Grid && !moving.field->per)
+            note(fmt::format("surfaces have the values of the nearest voxels, which are up to {:.3g} m away",
+                             0.5 * std::max({spacing.x, spacing.y, spacing.z})));
+    }
     GlDrawer gl(arguments.build.threads);
     const illustrate::ScenePainter::Draw drawByGl = [&](auto volumes, const auto& spec) {
         return gl.draw(volumes, spec);
@@ -459,6 +489,7 @@ Result<int> runRender(const RenderArguments& arguments) {
     SVT_TRY(moving, arguments.scene.toScene(isFilm(arguments.output) ? std::nullopt : std::optional(arguments.frames)));
     SVT_TRY(series, seriesOf(arguments, *moving));
     SVT_DO(checkForExact(arguments, *moving));
+    SVT_DO(checkForField(arguments, *moving));
     if (isCity(arguments.input)) return runCityRender(arguments, *series, *moving);
     if (isLineDrawing(arguments.output)) return runLineDrawing(arguments, *series, *moving);
     return runVolumeRender(arguments, *series, *moving);

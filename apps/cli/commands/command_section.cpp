@@ -1,5 +1,6 @@
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/options/catalog.hpp>
+#include <apps/cli/options/field_input.hpp>
 #include <apps/cli/options/load_volume.hpp>
 #include <apps/cli/options/materials_option.hpp>
 #include <apps/cli/options/paper_scale.hpp>
@@ -13,7 +14,9 @@
 #include <svt/core/file.hpp>
 #include <svt/drawing/building_levels.hpp>
 #include <svt/drawing/external_parts.hpp>
+#include <svt/drawing/field_drawing.hpp>
 #include <svt/drawing/section_drawing.hpp>
+#include <svt/fields/field.hpp>
 #include <svt/writers/drawing_formats.hpp>
 #include <svt/writers/section_table.hpp>
 #include <svt/writers/sheet_writer.hpp>
@@ -33,6 +36,9 @@ struct SectionArguments {
     double scale = 100;
     drawing::SectionOptions section;
     writers::DxfOptions dxf;
+    std::string field;
+    drawing::FieldDrawingOptions fieldDrawing;
+    image::ColorMap map = image::ColorMap::Viridis;
     bool json = false, verbose = false;
     pipeline::BuildOptions build;
 
@@ -61,7 +67,7 @@ void noteExternals(const volume::SemanticVolume& volume) {
 // Prints the findings and writes the drawing.
 Result<int> writeSection(const SectionArguments& arguments, const drawing::SectionDrawing& drawing,
                          const volume::SemanticVolume& volume, const std::vector<drawing::HatchChoice>& hatches,
-                         const std::vector<std::string>& nothing, double scale) {
+                         const std::vector<std::string>& nothing, const writers::FieldLook& look = {}) {
     const drawing::SectionDrawing* const drawings[] = {&drawing};
     const std::vector<drawing::HatchUse> uses = usesIn(drawings, hatches);
     Diagnostics findings;
@@ -82,12 +88,12 @@ Result<int> writeSection(const SectionArguments& arguments, const drawing::Secti
     for (const auto& paths : {arguments.outputs, arguments.tables})
         for (const std::filesystem::path& path : paths) {
             if (endingOf(path) == ".pdf") {
-                SVT_TRY(pdf, writers::makeSectionPdf(drawing, volume, scale));
+                SVT_TRY(pdf, writers::makeSectionPdf(drawing, volume, arguments.scale, look));
                 notePdf(*pdf);
                 SVT_DO(writeFileAtomically(path, pdf->bytes));
                 continue;
             }
-            SVT_DO(writers::writeDrawing(drawing, volume, path, {scale, arguments.dxf}));
+            SVT_DO(writers::writeDrawing(drawing, volume, path, {arguments.scale, arguments.dxf, look}));
             if (endingOf(path) == ".dxf" && arguments.dxf.isoLayers) noteExternals(volume);
         }
     TerminalProgress::hide();
@@ -96,7 +102,9 @@ Result<int> writeSection(const SectionArguments& arguments, const drawing::Secti
 }
 
 // Cuts the tiles of a city, one by one, into one drawing.
-Result<int> runCitySection(const SectionArguments& arguments, double scale) {
+Result<int> runCitySection(const SectionArguments& arguments) {
+    if (!arguments.field.empty())
+        return Error(Code::BadArgument, "--field: for one volume only; take a part of the city (svt city extract)");
     if (arguments.plane.empty())
         return Error(Code::BadArgument,
                      "a section of a city needs --plane, such as 'z=abs(50)'; for elevations, take a part of the city "
@@ -114,13 +122,42 @@ Result<int> runCitySection(const SectionArguments& arguments, double scale) {
     std::sort(nothing.begin(), nothing.end());
     nothing.erase(std::unique(nothing.begin(), nothing.end()), nothing.end());
     SVT_TRY(hatches, readHatches(arguments.materials, section->volume.labels));
-    return writeSection(arguments, section->drawing, section->volume, *hatches, nothing, scale);
+    return writeSection(arguments, section->drawing, section->volume, *hatches, nothing);
+}
+
+// Refuses options of a field without a field, and a range that does not ascend.
+Result<void> checkField(const SectionArguments& arguments) {
+    const drawing::FieldDrawingOptions& options = arguments.fieldDrawing;
+    if (options.range && !((*options.range)[0] < (*options.range)[1]))
+        return Error(Code::BadArgument, fmt::format("--range {:g},{:g}: expected a first value below the second",
+                                                    (*options.range)[0], (*options.range)[1]));
+    const bool hasAny = options.time || options.isolines != 0 || options.bands || options.range ||
+                        arguments.map != image::ColorMap::Viridis;
+    if (arguments.field.empty() && hasAny)
+        return Error(Code::BadArgument,
+                     "--time, --isolines, --bands, --range and --map are for a field; give its name with --field");
+    return {};
+}
+
+// The field on a section; none without --field.
+Result<std::optional<drawing::FieldDrawing>> drawnField(const SectionArguments& arguments,
+                                                        const drawing::SectionDrawing& drawing,
+                                                        const volume::SemanticVolume& volume) {
+    if (arguments.field.empty()) return std::optional<drawing::FieldDrawing>();
+    SVT_TRY(field, readFieldOf(arguments.input, arguments.field));
+    drawing::FieldDrawingOptions options = arguments.fieldDrawing;
+    options.threads = arguments.build.threads;
+    SVT_TRY(drawn, drawing::drawField(drawing, volume, *field, options));
+    if (drawn->bands.empty() && drawn->isolines.empty())
+        note(fmt::format("the field '{}' has no value on the plane", arguments.field));
+    return std::optional(std::move(*drawn));
 }
 
 Result<int> runSection(const SectionArguments& arguments) {
     if (arguments.outputs.empty() && arguments.tables.empty() && !arguments.json)
         return Error(Code::BadArgument, "nothing to write; give -o D.svg, --table T.csv or --json");
-    if (isCity(arguments.input)) return runCitySection(arguments, arguments.scale);
+    SVT_DO(checkField(arguments));
+    if (isCity(arguments.input)) return runCitySection(arguments);
     const TerminalProgress progress;
     pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
@@ -135,7 +172,9 @@ Result<int> runSection(const SectionArguments& arguments) {
     std::vector<std::string> nothing;
     Progress::tell(progress.get(), "section", 0);
     SVT_TRY(drawing, drawing::drawSection(*volume, *plane, optionsOf(arguments, nothing)));
-    return writeSection(arguments, *drawing, *volume, *hatches, nothing, arguments.scale);
+    SVT_TRY(field, drawnField(arguments, *drawing, *volume));
+    return writeSection(arguments, *drawing, *volume, *hatches, nothing,
+                        {field->has_value() ? &**field : nullptr, arguments.map});
 }
 
 Members<SectionArguments> membersOf(const SectionArguments*) noexcept {
@@ -166,6 +205,30 @@ Members<SectionArguments> membersOf(const SectionArguments*) noexcept {
         member<&All::section, &drawing::SectionOptions::smallestArea>(
             "--min-area", "leave out polygons smaller than this",
             {.unit = "m2", .least = 0, .most = 1e9, .group = "Drawing", .isForProjects = true}),
+        member<&All::field>("--field", "draw this field of the volume: bands and lines of equal value, with a legend",
+                            {.value = "NAME", .group = "Field"}),
+        member<&All::fieldDrawing, &drawing::FieldDrawingOptions::time>(
+            "--time", "time of the field",
+            {.unit = "seconds", .least = -1e12, .most = 1e12, .otherwise = "its first", .group = "Field"}),
+        member<&All::fieldDrawing, &drawing::FieldDrawingOptions::isolines>(
+            "--isolines", "draw lines of equal value, this step apart, in the unit of the field; 0: none",
+            {.value = "STEP", .least = 0, .most = 1e12, .group = "Field"}),
+        member<&All::fieldDrawing, &drawing::FieldDrawingOptions::bands>(
+            "--bands", "fill bands of values, this step wide; 0: none",
+            {.value = "STEP",
+             .least = 0,
+             .most = 1e12,
+             .otherwise = "that of --isolines, or a round step for 8 to 20 bands",
+             .group = "Field"}),
+        member<&All::fieldDrawing, &drawing::FieldDrawingOptions::range>(
+            "--range", "values of the field at the ends of the colour map",
+            {.value = "A,B",
+             .least = -1e12,
+             .most = 1e12,
+             .otherwise = "the least and the largest value of all times",
+             .group = "Field"}),
+        member<&All::map>("--map", "colour map of the field; vik is for values on both sides of a middle",
+                          {.group = "Field"}),
         member<&All::materials>("--materials",
                                 "table of materials with their hatches (CSV or JSON), before that of SVT",
                                 {.value = "FILE", .group = "Drawing", .file = FileUse::OtherInput}),

@@ -132,6 +132,13 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(Replica);
         SVT_CASE(IdConflict);
         SVT_CASE(ManySkipped);
+        SVT_CASE(BadField);
+        SVT_CASE(UnknownField);
+        SVT_CASE(FieldOutside);
+        SVT_CASE(FieldInPart);
+        SVT_CASE(UnknownMaterial);
+        SVT_CASE(AirLeak);
+        SVT_CASE(NotConverged);
         SVT_CASE(BadQuery);
         SVT_CASE(NothingSelected);
         SVT_CASE(Cancelled);

@@ -71,7 +71,7 @@ std::vector<OutlineUnion::Border> OutlineUnion::cancelled() const {
     return borders;
 }
 
-std::vector<PlanPolygon> OutlineUnion::polygons(double unit, std::array<double, 2> origin) const {
+std::vector<PlanPolygon> OutlineUnion::polygons(double unit, std::array<double, 2> origin, double leastArea) const {
     const std::vector<Border> borders = cancelled();
     plane::Box box;
     for (const Border& border : borders) {
@@ -117,7 +117,7 @@ std::vector<PlanPolygon> OutlineUnion::polygons(double unit, std::array<double, 
             for (const RingPoint& p : points)
                 ring.push_back({origin[0] + (double(box.low.u) + std::ldexp(double(p.point.u), shift)) * unit,
                                 origin[1] + (double(box.low.v) + std::ldexp(double(p.point.v), shift)) * unit});
-            if (ring.size() >= 3 && std::abs(signedAreaOf(ring)) >= kLeastArea)
+            if (ring.size() >= 3 && std::abs(signedAreaOf(ring)) >= leastArea)
                 polygon.rings.push_back(std::move(ring));
             else if (polygon.rings.empty())
                 break;

@@ -22,10 +22,12 @@ public:
 
     /// \param unit    metres per unit
     /// \param origin  world position of (0, 0)
-    /// \return the polygons, largest first; parts and holes below kLeastArea are left out. None if the borders do not
+    /// \param leastArea  m2
+    /// \return the polygons, largest first; parts and holes below that area are left out. None if the borders do not
     ///         settle (see plane::arrangeSegments())
     /// Cost: O(n log n).
-    [[nodiscard]] std::vector<PlanPolygon> polygons(double unit, std::array<double, 2> origin) const;
+    [[nodiscard]] std::vector<PlanPolygon> polygons(double unit, std::array<double, 2> origin,
+                                                    double leastArea = kLeastArea) const;
 
     /// m2, smaller than anything on a plan: slivers between faces that do not quite meet.
     static constexpr double kLeastArea = 1e-4;

@@ -159,10 +159,13 @@ Vec3f missingColor() noexcept { return kGray; }
 Vec3f rampColor(const ColorScale& scale, double value) {
     const double share =
         scale.high > scale.low ? std::clamp((value - scale.low) / (scale.high - scale.low), 0.0, 1.0) : 0.5;
-    const double at = share * (kViridis.size() - 1);
-    const auto below = std::min(static_cast<std::size_t>(at), kViridis.size() - 2);
-    const auto rest = static_cast<float>(at - static_cast<double>(below));
-    return kViridis[below] * (1 - rest) + kViridis[below + 1] * rest;
+    const auto colorAt = [&](const auto& ramp) {
+        const double at = share * double(ramp.size() - 1);
+        const auto below = std::min(static_cast<std::size_t>(at), ramp.size() - 2);
+        const auto rest = static_cast<float>(at - static_cast<double>(below));
+        return ramp[below] * (1 - rest) + ramp[below + 1] * rest;
+    };
+    return scale.ramp.size() > 1 ? colorAt(scale.ramp) : colorAt(kViridis);
 }
 
 Result<Coloring> colorBy(std::string_view key, std::span<const model::QueryRow> rows,

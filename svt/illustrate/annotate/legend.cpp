@@ -90,7 +90,13 @@ void drawLegend(const ColorScale& scale, Vec3f color, Vec3f halo, image::Image<i
         }
         pen.entry(scale.entries[n].text, scale.entries[n].color);
     }
+    if (!scale.missingText.empty()) pen.entry(scale.missingText, missingColor());
     if (scale.missing != 0) pen.entry(fmt::format("no value ({})", scale.missing), missingColor());
+    for (const std::string& note : scale.notes) {
+        if (pen.y > pen.bottom()) break;
+        pen.text(pen.left, pen.y, note);
+        pen.y += 1.45 * height;
+    }
 }
 
 }  // namespace svt::illustrate

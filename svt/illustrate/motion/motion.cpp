@@ -137,6 +137,7 @@ std::vector<Vec3d> pointsToShow(Scene scene, const volume::SemanticVolume& volum
         pass.cut.clear();
         pass.keep.clear();
     }
+    scene.field.reset();  // shown on the same parts
     std::vector<Vec3d> points;
     if (const auto spec = makeFrameSpec(scene, volume)) points = visiblePoints(spec->passes, volume);
     for (Vec3d& point : points) point = point - volume.grid.origin();

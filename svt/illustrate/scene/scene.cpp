@@ -158,7 +158,8 @@ Result<render::Camera> cameraOf(const Scene& scene, const volume::Grid& grid, co
         wanted.isParallel ? render::Camera::Projection::Orthographic : render::Camera::Projection::Perspective;
     options.verticalFovDegrees = wanted.fieldOfView;
     const double names = scene.names.empty() ? 0 : nameMargin(scene.width, scene.height);
-    const double legend = scene.colorBy.empty() || !scene.hasLegend ? 0 : legendMargin(scene.width, scene.height);
+    const bool hasScale = !scene.colorBy.empty() || scene.field;
+    const double legend = hasScale && scene.hasLegend ? legendMargin(scene.width, scene.height) : 0;
     options.sideMargin = std::max({options.sideMargin, names, legend});
     const InsetMargins insets = insetMargins(scene);
     // The margins of a picture that is moved aside are as wide as the marks at each side.
@@ -435,6 +436,12 @@ std::vector<VolumeRepresentation> volumeRepresentations(const Scene& scene) {
 }
 
 Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::SemanticVolume& volume) {
+    if (scene.field)
+        return Error(
+            Code::BadArgument,
+            fmt::format("the field '{}' is drawn only in pictures of pixels by the CPU; leave out the field here, "
+                        "or write a .png without --gl",
+                        scene.field->name));
     return makeFrameSpec(scene, volume, volume.labels);
 }
 

@@ -161,6 +161,36 @@ Members<Sun> membersOf(const Sun*) noexcept {
     return kMembers;
 }
 
+Members<SceneField> membersOf(const SceneField*) noexcept {
+    static constexpr Member<SceneField> kMembers[] = {
+        member<&SceneField::name>("name",
+                                  "colour cut faces and visible surfaces by this field of the volume, with a legend",
+                                  {.value = "NAME", .group = "Illustrate", .option = "--field", .isRequired = true}),
+        member<&SceneField::time>("time", "time of the field",
+                                  {.unit = "seconds",
+                                   .least = -1e12,
+                                   .most = 1e12,
+                                   .otherwise = "its first",
+                                   .group = "Illustrate",
+                                   .option = "--time"}),
+        member<&SceneField::range>("range", "values of the field at the ends of the colour map",
+                                   {.value = "A,B",
+                                    .least = -1e12,
+                                    .most = 1e12,
+                                    .otherwise = "the least and the largest value of all times",
+                                    .group = "Illustrate",
+                                    .option = "--range"}),
+        member<&SceneField::isolines>(
+            "isolines", "draw lines of equal value of the field, this step apart, in its unit; 0: none",
+            {.value = "STEP", .least = 0, .most = 1e12, .group = "Illustrate", .option = "--isolines"}),
+        member<&SceneField::map>("map", "colour map of the field; vik is for values on both sides of a middle",
+                                 {.group = "Illustrate", .option = "--map"}),
+        member<&SceneField::per>("per",
+                                 "colour each component by this figure of the field over its voxels, not by place",
+                                 {.group = "Illustrate", .option = "--per"})};
+    return kMembers;
+}
+
 Members<Inset> membersOf(const Inset*) noexcept {
     static constexpr Member<Inset> kMembers[] = {
         member<&Inset::corner>("corner", "corner of the picture that contains the inset"),
@@ -279,7 +309,8 @@ Members<Scene> membersOf(const Scene*) noexcept {
                                 "colour visible components by class, name, storey, volume, area of rooms, owner, "
                                 "voxels or an attribute, with a legend",
                                 {.value = "KEY", .group = "Illustrate", .option = "--color-by"}),
-        member<&Scene::hasLegend>("legend", "draw a legend for the colours of colorBy"),
+        member<&Scene::field>("field", "a field of the volume as colours of surfaces"),
+        member<&Scene::hasLegend>("legend", "draw a legend for the colours of colorBy or of a field"),
         member<&Scene::explode>("explode", "draw the storeys apart, with this vertical gap between them",
                                 {.value = "DISTANCE",
                                  .unit = "metres",
@@ -306,6 +337,11 @@ Members<Scene> membersOf(const Scene*) noexcept {
                                {.least = 1, .most = double(render::FrameSpec::kMaxPasses)}, Written::Always),
         member<&Scene::motion>("motion", "changes of the scene with time, for films")};
     return kMembers;
+}
+
+void checkMembers(Faults& faults, const std::string& path, const SceneField& field) {
+    if (field.range && !((*field.range)[0] < (*field.range)[1]))
+        faults.add(path + "/range", "expected a first value below the second");
 }
 
 void checkMembers(Faults& faults, const std::string& path, const Inset& inset) {

@@ -1,6 +1,7 @@
 #include <svt/illustrate/scene_painter.hpp>
 
 #include <svt/drawing/north.hpp>
+#include <svt/illustrate/annotate/field_paint.hpp>
 #include <svt/illustrate/annotate/legend.hpp>
 #include <svt/illustrate/annotate/marks.hpp>
 #include <svt/illustrate/annotate/name_tags.hpp>
@@ -8,6 +9,8 @@
 #include <svt/illustrate/inset/inset_frame.hpp>
 #include <svt/illustrate/shell.hpp>
 #include <svt/render/camera_rays.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -26,11 +29,13 @@ TextColors textColors(const render::Background& background) {
     return isDark ? TextColors{light, paper} : TextColors{dark, light};
 }
 
+bool hasLegend(const Scene& scene) { return (!scene.colorBy.empty() || scene.field) && scene.hasLegend; }
+
 Result<void> addNames(const Scene& scene, const volume::SemanticVolume& volume, const analyze::LabelRows& rows,
                       Painting& painting) {
     if (scene.names.empty()) return {};
     SVT_TRY(tags, findNameTags(scene.names, volume, rows, painting.frame));
-    if (!scene.colorBy.empty() && scene.hasLegend) tags->taken = legendMargin(scene.width, scene.height) * scene.width;
+    if (hasLegend(scene)) tags->taken = legendMargin(scene.width, scene.height) * scene.width;
     const TextColors colors = textColors(painting.spec.background);
     const std::size_t drawn = drawNameTags(*tags, colors.text, colors.halo, painting.frame.color);
     painting.names = {drawn, tags->hiddenCount, tags->tags.size() - drawn};
@@ -183,8 +188,38 @@ Result<std::vector<render::DrawnVolume>> ScenePainter::drawnVolumes(const Scene&
     return drawn;
 }
 
+Result<void> ScenePainter::showField(const fields::Field* field) {
+    field_.reset();
+    if (field == nullptr) return {};
+    SVT_TRY(view, FieldView::make(*field, volume_));
+    field_ = std::make_unique<const FieldView>(std::move(*view));
+    return {};
+}
+
+// Refuses a field that this picture cannot show.
+Result<void> ScenePainter::checkField(const Scene& scene) const {
+    if (!scene.field) return {};
+    const std::string& name = scene.field->name;
+    if (!scene.colorBy.empty())
+        return Error(Code::BadArgument,
+                     fmt::format("the field '{}' and the key '{}' both give colours; leave out --field or --color-by",
+                                 name, scene.colorBy));
+    if (scene.explode != 0 || !details_.empty())
+        return Error(
+            Code::BadArgument,
+            fmt::format("the field '{}' has its values in one volume as it stands; leave out --explode and --with",
+                        name));
+    if (field_ == nullptr || field_->name() != name)
+        return Error(
+            Code::BadArgument,
+            fmt::format("the picture shows the field '{}', which is not loaded here; leave out the field, or draw "
+                        "the volume (.svt) that has it by svt render",
+                        name));
+    return {};
+}
+
 Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptions& options) {
-    return paint(scene, byCasting(options));
+    return paintWith(scene, byCasting(options));
 }
 
 Result<ScenePainter*> ScenePainter::apart(double distance) {
@@ -203,6 +238,14 @@ Result<ScenePainter*> ScenePainter::apart(double distance) {
 }
 
 Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
+    if (scene.field)
+        return Error(Code::BadArgument,
+                     fmt::format("only the CPU draws the field '{}'; leave out --gl", scene.field->name));
+    return paintWith(scene, draw);
+}
+
+Result<Painting> ScenePainter::paintWith(const Scene& scene, const Draw& draw) {
+    SVT_DO(checkField(scene));
     SVT_TRY(painter, apart(scene.explode));
     const Paint paintOne = [&](const Scene& one) { return (*painter)->paintPlain(one, draw); };
     auto painting = paintOne(scene);
@@ -248,10 +291,11 @@ Result<Painting> ScenePainter::paintPlain(const Scene& scene, const Draw& draw) 
     const float gaps = mixtures_.empty() ? 0 : seenGaps(*spec, volume_.grid);
     for (render::Pass& pass : spec->passes) mix(mixtures_, spec->background, gaps, pass);
     SVT_TRY(drawn, drawnVolumes(scene, *spec));
-    return finish(scene, rows, scale, std::move(*spec), *drawn, draw);
+    return finish(scene, rows, std::move(scale), std::move(*spec), *drawn, draw);
 }
 
 Result<Painting> ScenePainter::paintDraft(const Scene& scene, const render::CastOptions& options) {
+    SVT_DO(checkField(scene));
     SVT_TRY(painter, apart(scene.explode));
     const Paint paintOne = [&](const Scene& one) { return (*painter)->draftPlain(one, options); };
     auto painting = paintOne(scene);
@@ -274,17 +318,24 @@ Result<Painting> ScenePainter::draftPlain(const Scene& scene, const render::Cast
         drafts.push_back(std::make_unique<volume::BrickVolume>(std::move(*bricks)));
         drawn.emplace_back(*drafts.back(), volume.grid);
     }
-    return finish(scene, rows, scale, std::move(*spec), drawn, byCasting(options));
+    return finish(scene, rows, std::move(scale), std::move(*spec), drawn, byCasting(options));
 }
 
-Result<Painting> ScenePainter::finish(const Scene& scene, const analyze::LabelRows& rows, const ColorScale& scale,
-                                      render::FrameSpec spec, std::span<const render::DrawnVolume> drawn,
+Result<Painting> ScenePainter::finish(const Scene& scene, const analyze::LabelRows& rows, ColorScale scale,
+                                      render::FrameSpec spec, std::span<render::DrawnVolume> drawn,
                                       const Draw& draw) const {
+    std::unique_ptr<const render::SurfacePaint> surfaces;
+    if (scene.field) {
+        SVT_TRY(paint, field_->paintFrame(scene, rows, spec));
+        surfaces = std::move(paint->colors);
+        scale = std::move(paint->scale);
+        for (render::DrawnVolume& volume : drawn) volume.paintBy(surfaces.get());
+    }
     SVT_TRY(frame, draw(drawn, spec));
     Painting painting{std::move(*frame), std::move(spec)};
     const TextColors colors = textColors(painting.spec.background);
     auto& image = painting.frame.color;
-    if (!scene.colorBy.empty() && scene.hasLegend) drawLegend(scale, colors.text, colors.halo, image);
+    if (hasLegend(scene)) drawLegend(scale, colors.text, colors.halo, image);
     if (!scene.title.empty()) drawTitle(scene.title, colors.text, colors.halo, image);
     if (scene.hasScaleBar) drawScaleBar(painting.spec.camera, colors.text, colors.halo, image);
     if (scene.hasNorthArrow)

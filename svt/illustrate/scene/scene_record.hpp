@@ -13,6 +13,7 @@ record::Members<SceneCamera> membersOf(const SceneCamera*) noexcept;
 record::Members<BorderLook> membersOf(const BorderLook*) noexcept;
 record::Members<HatchLook> membersOf(const HatchLook*) noexcept;
 record::Members<Sun> membersOf(const Sun*) noexcept;
+record::Members<SceneField> membersOf(const SceneField*) noexcept;
 record::Members<Inset> membersOf(const Inset*) noexcept;
 record::Members<Motion::Key> membersOf(const Motion::Key*) noexcept;
 record::Members<Motion> membersOf(const Motion*) noexcept;
@@ -21,6 +22,7 @@ record::Members<SceneLines> membersOf(const SceneLines*) noexcept;
 record::Members<ScenePass> membersOf(const ScenePass*) noexcept;
 record::Members<Scene> membersOf(const Scene*) noexcept;
 
+void checkMembers(record::Faults& faults, const std::string& path, const SceneField& read);
 void checkMembers(record::Faults& faults, const std::string& path, const Inset& read);
 void checkMembers(record::Faults& faults, const std::string& path, const Motion::Key& read);
 void checkMembers(record::Faults& faults, const std::string& path, const Motion& read);

@@ -421,6 +421,8 @@ std::string jsonWith(std::string_view pointer, std::string value) {
             value = R"({"select": "all", ")" + std::string(name) + "\": " + value + "}";
         else if (pointer.starts_with("/sun/") && name != "time")
             value = R"({"time": "2026-06-21 15:00", ")" + std::string(name) + "\": " + value + "}";
+        else if (pointer.starts_with("/field/") && name != "name")
+            value = R"({"name": "t", ")" + std::string(name) + "\": " + value + "}";
         else if (name == "at")
             value = R"({"scene": {}, "at": )" + value + "}";
         else if (name == "keys")
@@ -451,6 +453,7 @@ TEST(SceneMembers, DefaultsAreThoseOfTheStructures) {
             plain.passes[0].styles.emplace_back().select = "all";
         if (member.name.starts_with("/motion/")) plain.motion.emplace();
         if (member.name.starts_with("/sun/")) plain.sun.emplace().time = "2026-06-21 15:00";
+        if (member.name.starts_with("/field/")) plain.field.emplace().name = "t";
         if (member.name.starts_with("/insets/")) plain.insets.emplace_back();
         if (member.name == "/ambientOcclusion") plain.ambientOcclusion = 0.6f;
         EXPECT_EQ(*scene, plain) << json;

@@ -193,8 +193,14 @@ void FragmentFinder::addSurface(std::size_t pass, const CameraRay& ray, const Pi
     const double light = 1 + (lit - 1) * double(style.surface);
     const auto number = static_cast<std::int32_t>(fragments.surfaces.size());
     fragments.surfaces.push_back({style.label, style.object, normal, isCap});
-    fragments.items.push_back(
-        {depth, triangle.opacity, 0, Vec3d{style.color.x, style.color.y, style.color.z} * light, number});
+    const PreparedVolume& volume = frame_.volumeOf(pass);
+    Vec3f color = style.color;
+    if (volume.paint != nullptr && style.kind == Kind::Opaque) {
+        const Vec3d index = ray.voxelRay.origin + ray.voxelRay.direction * depth - Vec3d{0.5, 0.5, 0.5};
+        color = volume.paint->colorAt({static_cast<std::uint32_t>(pass), style.label, depth,
+                                       volume.grid.worldFromIndex(index), normal, isCap, color});
+    }
+    fragments.items.push_back({depth, triangle.opacity, 0, toDouble(color) * light, number});
 }
 
 }  // namespace svt::render

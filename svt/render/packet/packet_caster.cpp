@@ -187,6 +187,8 @@ void PacketCaster::castPass(std::size_t pass, const PacketPass& prepared) {
     seen_.transmittance.fill(1);
     seen_.depth.fill(std::numeric_limits<double>::infinity());
     seen_.isDone.fill(0);
+    packetPass.hasPaint = withColor_ && frame_.volumeOf(pass).paint != nullptr;
+    if (packetPass.hasPaint) seen_.painted.weight.fill(0);
     hasShapes_ = !frame_.passes[pass].shapes.isEmpty();
     if (hasShapes_) {
         seen_.lines.fill(1);
@@ -194,12 +196,40 @@ void PacketCaster::castPass(std::size_t pass, const PacketPass& prepared) {
         fragments_.clear();
         rayFragments_.fill({});
     }
-    if (hasShapes_ || !frame_.passes[pass].clipper.isEmpty()) return castIntervals(packetPass);
-    caps_.fill({});
-    spans_.from = rays_.from;
-    spans_.to = rays_.to;
-    spans_.capped.fill(0);
-    walkVisible(packetPass);
+    if (hasShapes_ || !frame_.passes[pass].clipper.isEmpty()) {
+        castIntervals(packetPass);
+    } else {
+        caps_.fill({});
+        spans_.from = rays_.from;
+        spans_.to = rays_.to;
+        spans_.capped.fill(0);
+        walkVisible(packetPass);
+    }
+    if (packetPass.hasPaint) addPainted();
+}
+
+// Adds the colors of opaque surfaces by their place. Behind a surface a ray ends, so none is added after it.
+void PacketCaster::addPainted() {
+    const PreparedVolume& volume = frame_.volumeOf(pass_);
+    const PassTable& table = frame_.passes[pass_].table;
+    const PacketSamples::Painted& painted = seen_.painted;
+    for (std::size_t n = 0; n < count_; ++n) {
+        if (!(painted.weight[n] > 0)) continue;
+        const LinearStyle& style = table[static_cast<volume::Scalar>(painted.scalar[n])];
+        const double depth = painted.depth[n];
+        const Vec3d origin{rays_.origin[0][n], rays_.origin[1][n], rays_.origin[2][n]};
+        const Vec3d direction{rays_.direction[0][n], rays_.direction[1][n], rays_.direction[2][n]};
+        const Vec3f color =
+            volume.paint->colorAt({static_cast<std::uint32_t>(pass_),
+                                   style.label,
+                                   depth,
+                                   volume.grid.worldFromIndex(origin + direction * depth - Vec3d{0.5, 0.5, 0.5}),
+                                   {painted.normal[0][n], painted.normal[1][n], painted.normal[2][n]},
+                                   painted.isCap[n] != 0,
+                                   style.color});
+        for (int channel = 0; channel < 3; ++channel)
+            seen_.color[channel][n] += double(color[channel]) * painted.weight[n];
+    }
 }
 
 // Casts the intervals that the clips leave: in round n, interval n of each ray.

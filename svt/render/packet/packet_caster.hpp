@@ -61,6 +61,7 @@ private:
     void findLines(std::size_t block);
     void walkVisible(const PacketPass& pass);
     void addLastFragments();
+    void addPainted();
     void findIntervals(std::size_t ray);
     double findSurfaces(std::size_t ray, std::span<const DrawnInterval> drawn);
     void writeSample(std::size_t ray, Sample& sample) const noexcept;

@@ -80,6 +80,12 @@ struct PacketSamples {
     Lanes<std::int64_t> isDone;  ///< -1: the ray has ended
     Lanes<double> lines;         ///< transmittance of the lines met so far
     Lanes<double> nextFragment;  ///< depth of the ray's next fragment; infinity if there is none
+    /// With PacketPass::hasPaint, the opaque surface at the end of the ray, whose color is not in `color` yet.
+    struct Painted {
+        Lanes<double> weight;  ///< factor of its color; 0: none
+        Lanes<double> depth, normal[3];
+        Lanes<std::int64_t> scalar, isCap;
+    } painted;
 };
 
 /// A surface that PacketPass::surface shades for the kernel. Its normal is fitted to voxels, it is a cap, the eye is
@@ -131,6 +137,7 @@ struct PacketPass {
     Surface (*surface)(void* context, const PacketSurface& surface) = nullptr;
     /// Share of the key light that reaches a surface of a ray; null: all of it, everywhere.
     double (*unshaded)(void* context, const PacketPoint& point) = nullptr;
+    bool hasPaint = false;      ///< the caller adds the colors of opaque surfaces, see PacketSamples::painted
     bool hasFragments = false;  ///< rays may meet lines or meshes; else samples.lines and nextFragment are not read
     /// Blends the next fragment of a ray into its sample.
     void (*fragment)(void* context, std::size_t ray) = nullptr;

@@ -230,7 +230,40 @@ private:
     HWY_NOINLINE void addOpaque() {
         const M unlit = hn::And(isOpaque_, isUnlit_);
         if (any(unlit)) light_ = hn::IfThenElse(unlit, lightOn(unlit, openness(), runStart_), light_);
-        add(isOpaque_, transmittance_, runStart_, styleOf(runScalar_, isOpaque_));
+        const StyleRef style = styleOf(runScalar_, isOpaque_);
+        if (!pass_.hasPaint) {
+            add(isOpaque_, transmittance_, runStart_, style);
+            return;
+        }
+        keepPainted(style);
+        const V3 before = color_;
+        add(isOpaque_, transmittance_, runStart_, style);
+        color_ = before;
+    }
+
+    // Stores what the caller needs to add the color of opaque surfaces.
+    HWY_NOINLINE void keepPainted(const StyleRef& style) {
+        const D d;
+        const DI di;
+        const V one = hn::Set(d, 1.0);
+        const V surface = number<offsetof(PacketStyle, surface)>(style);
+        V weight = hn::Mul(transmittance_, hn::Add(one, hn::Mul(hn::Sub(light_, one), surface)));
+        if constexpr (kWithFragments) weight = hn::Mul(weight, lines_);
+        PacketSamples::Painted& painted = samples_.painted;
+        const auto keep = [&](V value, Lanes<double>& lanesOf) {
+            store(hn::IfThenElse(isOpaque_, value, hn::Load(d, lanesOf.data() + first_)), lanesOf, first_);
+        };
+        keep(weight, painted.weight);
+        keep(runStart_, painted.depth);
+        keep(normal_.x, painted.normal[0]);
+        keep(normal_.y, painted.normal[1]);
+        keep(normal_.z, painted.normal[2]);
+        const auto keepInt = [&](VI value, Lanes<std::int64_t>& lanesOf) {
+            hn::Store(hn::IfThenElse(toInts(isOpaque_), value, hn::Load(di, lanesOf.data() + first_)), di,
+                      lanesOf.data() + first_);
+        };
+        keepInt(runScalar_, painted.scalar);
+        keepInt(hn::IfThenElseZero(toInts(isOnCap_), hn::Set(di, 1)), painted.isCap);
     }
 
     // As SurfaceLight::openness().

@@ -35,6 +35,8 @@ public:
               const Fragments& fragments, bool withColor)
         : frame_(frame),
           pass_(frame.passes[pass]),
+          passNumber_(pass),
+          paint_(frame.volumeOf(pass).paint),
           surfaceLight_(frame, pass, cache),
           ray_(ray),
           fragments_(fragments.items),
@@ -61,7 +63,10 @@ public:
                         ray_.voxelRay.entryAxis(from, start.voxel), start.plane, start.isVoxel,
                         from == interval_->from ? interval_->cap : CapFace{}, start.normal});
         if (style.kind == Kind::Translucent) return false;
-        add(style, 1, from);
+        if (paint_ != nullptr && withColor_)
+            add(painted(style, from), 1, from);
+        else
+            add(style, 1, from);
         hasEnded_ = true;
         return true;
     }
@@ -119,6 +124,16 @@ private:
         return isDone();
     }
 
+    // The style with the colour of the surface's place.
+    [[nodiscard]] LinearStyle painted(const LinearStyle& style, double from) const {
+        LinearStyle own = style;
+        const Vec3d index = ray_.voxelRay.origin + ray_.voxelRay.direction * from - Vec3d{0.5, 0.5, 0.5};
+        own.color = paint_->colorAt({static_cast<std::uint32_t>(passNumber_), style.label, from,
+                                     frame_.volumeOf(passNumber_).grid.worldFromIndex(index), surface_.normal,
+                                     surface_.isCap, style.color});
+        return own;
+    }
+
     void add(const LinearStyle& style, double alpha, double from) {
         const double share = transmittance_ * alpha;
         const double light = 1 + (surface_.light - 1) * double(style.surface);
@@ -135,6 +150,8 @@ private:
 
     const PreparedFrame& frame_;
     const PreparedPass& pass_;
+    std::size_t passNumber_;
+    const SurfacePaint* paint_;
     SurfaceLight surfaceLight_;
     const CameraRay& ray_;
     std::span<const Fragment> fragments_;

@@ -52,8 +52,9 @@ struct PreparedVolume {
     const volume::Grid& grid;
     CameraRays rays;
     DirectionTable directions;
-    double voxelSize;         ///< metres, the largest spacing
-    const RunSource* source;  ///< of the runs of rays; null: the bricks
+    double voxelSize;           ///< metres, the largest spacing
+    const RunSource* source;    ///< of the runs of rays; null: the bricks
+    const SurfacePaint* paint;  ///< colours of opaque surfaces; null: those of the styles
 
     PreparedVolume(const DrawnVolume& drawn, const FrameSpec& spec)
         : bricks(drawn.bricks()),
@@ -61,7 +62,8 @@ struct PreparedVolume {
           rays(spec, grid),
           directions(bricks, grid),
           voxelSize(std::max({grid.spacing().x, grid.spacing().y, grid.spacing().z})),
-          source(drawn.source()) {}
+          source(drawn.source()),
+          paint(drawn.paint()) {}
 };
 
 /// A frame, prepared for all rays.

@@ -353,13 +353,18 @@ Result<void> putZip(File& file, std::span<const ZipSource> entries, std::uint64_
         Placed placed;
         placed.offset = file.size();
         for (const auto part : entry.parts) {
-            placed.crc = crc32Of(part, placed.crc);
+            if (!entry.packed) placed.crc = crc32Of(part, placed.crc);
             placed.size += part.size();
         }
         placed.packedSize = placed.size;
+        if (entry.packed) {
+            placed.size = entry.packed->size;
+            placed.crc = entry.packed->crc;
+            placed.method = entry.packed->isDeflated ? kDeflated : kStored;
+        }
         std::vector<std::span<const std::byte>> parts = entry.parts;
         std::vector<std::vector<std::byte>> packed;
-        if (entry.isDeflated) {
+        if (entry.isDeflated && !entry.packed) {
             packed = deflateParts(entry.parts);
             std::uint64_t packedSize = 0;
             for (const auto& piece : packed) packedSize += piece.size();

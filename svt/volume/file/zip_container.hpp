@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,12 +19,20 @@ namespace svt::volume {
 
 inline constexpr std::size_t kZipAlignment = 64;
 
+/// Sizes and checksum of data that are copied from another file.
+struct PackedAs {
+    std::uint64_t size = 0;  ///< bytes of the unpacked data
+    std::uint32_t crc = 0;   ///< of the unpacked data
+    bool isDeflated = false;
+};
+
 /// An entry to write; its data are the concatenated `parts`.
 struct ZipSource {
     std::string name;  ///< printable ASCII, folders separated by '/'
     std::vector<std::span<const std::byte>> parts;
     bool isAligned = true;  ///< false: no extra field; gives the data of the first entry a fixed offset
     bool isDeflated = false;
+    std::optional<PackedAs> packed{};  ///< `parts` are written as they are, with this header; isDeflated has no meaning
 };
 
 /// An entry of a file; views of the bytes of the container.

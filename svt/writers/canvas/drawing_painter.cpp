@@ -3,6 +3,7 @@
 #include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/drawing/name_place.hpp>
+#include <svt/writers/field/field_marks.hpp>
 
 #include <fmt/format.h>
 
@@ -30,10 +31,12 @@ public:
 
     void paint() {
         inLayer("Cut", [&] { addComponents(); });
+        if (options_.field.field != nullptr) inLayer("Field", [&] { addBands(); });
         for (const auto kind : {drawing::BeyondKind::Visible, drawing::BeyondKind::Hidden, drawing::BeyondKind::Above})
             addBeyond(kind);
         inLayer("Outlines", [&] { addBorders(); });
         if (!drawing_.doors.empty()) inLayer("Doors", [&] { addDoors(); });
+        if (options_.field.field != nullptr) inLayer("Isolines", [&] { addIsolines(); });
         if (options_.marks == nullptr)
             inLayer("Names", [&] { addNames(); });
         else
@@ -73,6 +76,35 @@ private:
                 canvas_.hatch(rings, *tile);
             else
                 canvas_.fill(rings, "#d9d9d9");
+        }
+    }
+
+    [[nodiscard]] std::vector<PaperPath> pathsOf(const std::vector<drawing::SectionPolygon>& polygons) const {
+        std::vector<PaperPath> paths;
+        for (const drawing::SectionPolygon& polygon : polygons) {
+            paths.push_back(pathOf(polygon.outer, true));
+            for (const drawing::Ring& hole : polygon.holes) paths.push_back(pathOf(hole, true));
+        }
+        return paths;
+    }
+
+    void addBands() {
+        const drawing::FieldDrawing& field = *options_.field.field;
+        if (!field.missing.empty()) canvas_.fill(pathsOf(field.missing), noValueColor());
+        for (const drawing::FieldBand& band : field.bands)
+            canvas_.fill(pathsOf(band.polygons), bandColor(options_.field, band));
+    }
+
+    // Values are upright: letters of a canvas turn by 90 degrees only.
+    void addIsolines() {
+        const drawing::FieldDrawing& field = *options_.field.field;
+        std::vector<PaperPath> paths;
+        for (const drawing::FieldIsoline& line : field.isolines) paths.push_back(pathOf(line.points, false));
+        if (!paths.empty()) canvas_.stroke(paths, {widths_.beyond});
+        for (const FieldLabel& label : placeFieldLabels(field, place_.millimetres)) {
+            PaperPoint at = place_.onPaper(label.at);
+            at.y += 0.35 * label.size;
+            canvas_.text({at, label.size, label.text, TextAnchor::Middle, true});
         }
     }
 

@@ -4,6 +4,7 @@
 
 #include <svt/writers/canvas/mark_shapes.hpp>
 #include <svt/writers/canvas/sheet_canvas.hpp>
+#include <svt/writers/field_look.hpp>
 
 #include <cstdint>
 #include <map>
@@ -39,6 +40,7 @@ struct PaintOptions {
     const std::vector<MarkShapes>* marks = nullptr;  ///< instead of the names of rooms, one layer each
     LineWidths widths{};
     OpeningWords openings{};  ///< letters before the heights of openings
+    FieldLook field{};        ///< over the cut components, without a legend
 };
 
 void paintDrawing(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,

@@ -33,4 +33,21 @@ Result<DrawingPage> makeDrawingPage(const drawing::SectionDrawing& drawing, doub
     return page;
 }
 
+void addField(const drawing::FieldDrawing& field, DrawingPage& page) {
+    drawing::PlanePoint low = page.low, high = page.high;
+    const auto add = [&](const std::vector<drawing::PlanePoint>& points) {
+        for (const drawing::PlanePoint p : points) {
+            low = {std::min(low.u, p.u), std::min(low.v, p.v)};
+            high = {std::max(high.u, p.u), std::max(high.v, p.v)};
+        }
+    };
+    for (const drawing::FieldBand& band : field.bands)
+        for (const drawing::SectionPolygon& polygon : band.polygons) add(polygon.outer);
+    for (const drawing::FieldIsoline& line : field.isolines) add(line.points);
+    page.width += (high.u - low.u - (page.high.u - page.low.u)) * page.millimetres;
+    page.height += (high.v - low.v - (page.high.v - page.low.v)) * page.millimetres + DrawingPage::kLegendHeight;
+    page.low = low;
+    page.high = high;
+}
+
 }  // namespace svt::writers

@@ -4,6 +4,7 @@
 #include <svt/writers/drawing/dxf_file.hpp>
 #include <svt/writers/drawing/dxf_parts.hpp>
 #include <svt/writers/dxf_drawing.hpp>
+#include <svt/writers/field/field_marks.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -97,6 +98,7 @@ public:
         : drawing_(drawing),
           volume_(volume),
           hasIsoLayers_(options.isoLayers),
+          look_(options.field),
           style_(drawing, volume, kDimensionScale),
           place_(drawing.axes, options.world) {
         if (options.isoLayers)
@@ -136,6 +138,12 @@ private:
                               : "world = origin + u * x + v * y, metres") +
                 (volume_.crsName.empty() ? std::string() : ", CRS " + dxfText(volume_.crsName)),
             "origin " + vectorText(axes.origin, 6), "u " + vectorText(axes.u, 15), "v " + vectorText(axes.v, 15)};
+        if (look_.field != nullptr) {
+            lines.push_back("field " + dxfText(look_.field->title));
+            for (const drawing::FieldBand& band : look_.field->bands)
+                lines.push_back(fmt::format("{}: {:.9g} to {:.9g}, {}", bandLayerOf(band), band.low, band.high,
+                                            bandColor(look_, band)));
+        }
         if (std::string sources = drawing::externalSources(externals_, volume_.labels); !sources.empty())
             lines.push_back(std::move(sources));
         return lines;
@@ -169,6 +177,7 @@ private:
             if (component.lineLength > 0) addLines(component, layer);
             if (!component.polygons.empty() && model::isSpace(labelOf(component.label).className)) addName(component);
         }
+        if (look_.field != nullptr) addField();
         for (const drawing::BeyondLine& line : drawing_.beyond) addBeyond(line);
         for (const drawing::DoorSwing& swing : drawing_.doors) addDoor(swing);
         for (const DimensionMark& mark : dimensions_.marks) addDimension(mark);
@@ -278,14 +287,68 @@ private:
         addText({u, v - 0.8 * height}, dxfText(fmt::format("{:.2f} m\u00B2", component.stampArea())), layer, letters);
     }
 
-    void addHatch(std::uint32_t label, const drawing::SectionPolygon& polygon) {
-        const DxfHatch* const pattern = dxfHatchOf(style_.hatchOf(label));
-        if (pattern == nullptr) return;
-        begin("HATCH", layerOf(label, DxfContent::Hatch), "AcDbHatch");
+    static std::string bandLayerOf(const drawing::FieldBand& band) {
+        return plainName(fmt::format("FIELD_{:.9g}_{:.9g}", band.low, band.high));
+    }
+
+    void addSolid(const drawing::SectionPolygon& polygon, std::string_view layer) {
+        beginHatch("SOLID", true, polygon, layer);
+        out_.add({{75, 0}, {76, 1}, {98, 0}});
+    }
+
+    // The bands of a field, its lines with their values (1040), and texts along them.
+    void addField() {
+        const drawing::FieldDrawing& field = *look_.field;
+        for (const drawing::SectionPolygon& polygon : field.missing)
+            addSolid(polygon, file_.layer("FIELD_NO_VALUE", 9));
+        for (const drawing::FieldBand& band : field.bands)
+            for (const drawing::SectionPolygon& polygon : band.polygons)
+                addSolid(polygon, file_.layer(bandLayerOf(band), autocadColor(bandColor(look_, band))));
+        for (const drawing::FieldIsoline& line : field.isolines) {
+            const bool isClosed = line.points.size() > 3 && line.points.front() == line.points.back();
+            const std::size_t count = line.points.size() - (isClosed ? 1 : 0);
+            begin("LWPOLYLINE", file_.layer("FIELD_LINES", 7, "Continuous", kBeyondWidth), "AcDbPolyline");
+            out_.add({{90, static_cast<int>(count)}, {70, isClosed ? 1 : 0}, {43, 0}});
+            if (place_.isWorld()) out_.add({{38, place_.elevation()}});
+            for (std::size_t n = 0; n < count; ++n) out_.point(10, place_.flat(line.points[n]));
+            addExtrusion();
+            out_.add({{1001, "SVT"}, {1040, line.value}});
+        }
+        const std::string texts = file_.layer("FIELD_TEXT", 7);
+        for (const FieldLabel& label : placeFieldLabels(field, kDimensionScale))
+            addText(
+                label.at, label.text, texts,
+                {"SVT_NAMES", 0.73 * label.size / kDimensionScale, label.degrees + place_.turnDegrees(), true, false});
+        addFieldLegend(texts);
+    }
+
+    // A box for each band at the right of the drawing, from below.
+    void addFieldLegend(std::string_view texts) {
+        constexpr double kSide = 0.4, kText = 0.2, kAway = 1.5;
+        const auto [low, high] = drawnBox(drawing_);
+        const Letters letters{"SVT_NAMES", kText, place_.turnDegrees(), place_.turnDegrees() != 0, false};
+        const double u = high.u + kAway;
+        double v = low.v;
+        const auto addBox = [&](std::string_view layer, std::string_view text) {
+            addSolid({{{u, v}, {u + kSide, v}, {u + kSide, v + kSide}, {u, v + kSide}}, {}, kSide * kSide}, layer);
+            addText({u + 4 * kSide, v + kSide / 2}, text, texts, letters);
+            v += kSide;
+        };
+        addBox(file_.layer("FIELD_NO_VALUE", 9), "no value");
+        v += kSide / 2;
+        for (const drawing::FieldBand& band : look_.field->bands)
+            addBox(file_.layer(bandLayerOf(band), autocadColor(bandColor(look_, band))),
+                   fmt::format("{:.6g} - {:.6g}", band.low, band.high));
+        addText({u + 4 * kSide, v + kSide}, dxfText(look_.field->title), texts, letters);
+    }
+
+    // The beginning of a hatch with its rings.
+    void beginHatch(const char* pattern, bool isSolid, const drawing::SectionPolygon& polygon, std::string_view layer) {
+        begin("HATCH", layer, "AcDbHatch");
         out_.point(10, Vec3d{0, 0, place_.elevation()});
         out_.point(210, place_.normal());
         // A pattern; then how many rings follow.
-        out_.add({{2, pattern->name}, {70, 0}, {71, 0}, {91, static_cast<int>(1 + polygon.holes.size())}});
+        out_.add({{2, pattern}, {70, isSolid ? 1 : 0}, {71, 0}, {91, static_cast<int>(1 + polygon.holes.size())}});
         const auto addRing = [&](const drawing::Ring& ring, int kind) {
             out_.add({{92, kind}, {72, 0}, {73, 1}, {93, static_cast<int>(ring.size())}});
             for (const PlanePoint p : ring) out_.point(10, place_.flat(p));
@@ -293,6 +356,12 @@ private:
         };
         addRing(polygon.outer, 1 + 2);  // external, a polyline
         for (const drawing::Ring& hole : polygon.holes) addRing(hole, 16 + 2);
+    }
+
+    void addHatch(std::uint32_t label, const drawing::SectionPolygon& polygon) {
+        const DxfHatch* const pattern = dxfHatchOf(style_.hatchOf(label));
+        if (pattern == nullptr) return;
+        beginHatch(pattern->name, false, polygon, layerOf(label, DxfContent::Hatch));
         // Its own lines, not turned and not scaled.
         out_.add({{75, 0}, {76, 0}, {52, 0}, {41, 1}, {77, 0}, {78, static_cast<int>(pattern->lines.size())}});
         for (const DxfHatchLine& line : pattern->lines) {
@@ -372,6 +441,7 @@ private:
     const drawing::SectionDrawing& drawing_;
     const volume::SemanticVolume& volume_;
     bool hasIsoLayers_;
+    FieldLook look_;
     std::vector<drawing::ExternalPart> externals_;  // by label, for ISO layers
     DrawingStyle style_;
     DxfPlace place_;

@@ -1,5 +1,6 @@
 #include <svt/volume/volume_json.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/field/field_marks.hpp>
 #include <svt/writers/geojson_drawing.hpp>
 
 #include <fmt/format.h>
@@ -27,8 +28,8 @@ std::string jsonList(const Items& items, const TextOf& textOf) {
 
 class GeojsonWriter {
 public:
-    GeojsonWriter(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume)
-        : drawing_(drawing), volume_(volume) {}
+    GeojsonWriter(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume, const FieldLook& look)
+        : drawing_(drawing), volume_(volume), look_(look) {}
 
     std::string write() {
         const drawing::PlaneAxes& axes = drawing_.axes;
@@ -50,6 +51,7 @@ public:
             for (const drawing::DoorSwing::Arc& arc : door.arcs) lines.push_back(drawing::pointsOf(arc));
             addFeature(door.label, "", "\"swing\":true", multiLine(lines));
         }
+        if (look_.field != nullptr) addField();
         return std::move(json_ += "\n]}\n");
     }
 
@@ -110,15 +112,41 @@ private:
         }
     }
 
+    void addFieldFeature(std::string_view properties, std::string_view geometry) {
+        const drawing::FieldDrawing& field = *look_.field;
+        json_ += fmt::format("{}{{\"type\":\"Feature\",\"properties\":{{{},{},\"seconds\":{},{}}},\"geometry\":{}}}",
+                             json_.back() == '[' ? "\n" : ",\n", jsonMember("field", field.name),
+                             jsonMember("unit", field.unit), shortNumber(field.seconds, 6), properties, geometry);
+    }
+
+    // A feature for the places without a value, for each band, and for all lines of a value.
+    void addField() {
+        const drawing::FieldDrawing& field = *look_.field;
+        if (!field.missing.empty()) addFieldFeature("\"missing\":true", multiPolygon(field.missing));
+        for (const drawing::FieldBand& band : field.bands)
+            addFieldFeature(fmt::format("\"low\":{:.9g},\"high\":{:.9g},{}", band.low, band.high,
+                                        jsonMember("fill", bandColor(look_, band))),
+                            multiPolygon(band.polygons));
+        for (std::size_t n = 0; n < field.isolines.size();) {
+            const double value = field.isolines[n].value;
+            std::vector<PlaneLine> lines;
+            for (; n < field.isolines.size() && field.isolines[n].value == value; ++n)
+                lines.push_back(field.isolines[n].points);
+            addFieldFeature(fmt::format("\"value\":{:.9g}", value), multiLine(lines));
+        }
+    }
+
     const drawing::SectionDrawing& drawing_;
     const volume::SemanticVolume& volume_;
+    const FieldLook& look_;
     std::string json_;
 };
 
 }  // namespace
 
-std::string makeGeojson(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
-    return GeojsonWriter(drawing, volume).write();
+std::string makeGeojson(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                        const FieldLook& look) {
+    return GeojsonWriter(drawing, volume, look).write();
 }
 
 }  // namespace svt::writers

@@ -5,6 +5,7 @@
 #include <svt/writers/drawing/drawing_style.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/drawing/name_place.hpp>
+#include <svt/writers/field/field_marks.hpp>
 #include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/svg_drawing.hpp>
 
@@ -27,18 +28,22 @@ constexpr double kTextWidth = 0.56;  // width of a character relative to the fon
 
 class SvgWriter {
 public:
-    SvgWriter(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume, const DrawingPage& page)
-        : drawing_(drawing), volume_(volume), style_(drawing, volume, page.millimetres), page_(page) {}
+    SvgWriter(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume, const DrawingPage& page,
+              const FieldLook& look)
+        : drawing_(drawing), volume_(volume), style_(drawing, volume, page.millimetres), page_(page), look_(look) {}
 
     std::string write() {
         begin();
         addComponents();
+        if (look_.field != nullptr) addBands();
         addBeyond();
         addBorders();
         addLines();
         addDoors();
+        if (look_.field != nullptr) addIsolines();
         addNames();
         addDimensions();
+        if (look_.field != nullptr) addLegend();
         addTitle();
         svg_ += "</svg>\n";
         return std::move(svg_);
@@ -94,6 +99,12 @@ private:
                 ".beyond { fill: none; stroke: #000; stroke-width: 0.18; stroke-linecap: round }\n"
                 ".hidden { stroke-linecap: butt; stroke-dasharray: 2.16 0.54 }\n"
                 ".above { stroke-linecap: butt; stroke-dasharray: 4.32 0.54 0.18 0.54 0.18 0.54 }\n";
+        if (look_.field != nullptr)
+            svg_ +=
+                ".isoline { fill: none; stroke: #000; stroke-width: 0.18; stroke-linecap: round; stroke-linejoin: "
+                "round }\n"
+                ".values { text-anchor: middle }\n"
+                ".values text { paint-order: stroke; stroke: #fff; stroke-width: 0.5; stroke-linejoin: round }\n";
         if (hasDimensions(drawing_))
             svg_ +=
                 ".dimensions { text-anchor: middle }\n"
@@ -150,7 +161,13 @@ private:
             "fill-rule=\"evenodd\" d=\"",
             className, xmlAttribute(label.id), shortNumber(component.area, 4), shortNumber(component.areaBound, 4),
             component.isExact ? "yes" : "no", fillOf(component.label));
-        for (const auto& polygon : component.polygons) {
+        addPolygons(component.polygons);
+        svg_ += fmt::format("\"><title>{}{}{}</title></path>\n", xmlAttribute(label.id), label.name.empty() ? "" : ": ",
+                            xmlAttribute(label.name));
+    }
+
+    void addPolygons(const std::vector<drawing::SectionPolygon>& polygons) {
+        for (const auto& polygon : polygons) {
             addLine(polygon.outer);
             svg_ += "Z";
             for (const auto& hole : polygon.holes) {
@@ -158,8 +175,60 @@ private:
                 svg_ += "Z";
             }
         }
-        svg_ += fmt::format("\"><title>{}{}{}</title></path>\n", xmlAttribute(label.id), label.name.empty() ? "" : ": ",
-                            xmlAttribute(label.name));
+    }
+
+    // The bands of a field, and the parts of its medium without a value: one path each.
+    void addBands() {
+        const drawing::FieldDrawing& field = *look_.field;
+        svg_ += layer("field", "Field",
+                      fmt::format(" data-field=\"{}\" data-unit=\"{}\" data-seconds=\"{}\"", xmlAttribute(field.name),
+                                  xmlAttribute(field.unit), shortNumber(field.seconds, 6)));
+        if (!field.missing.empty()) {
+            svg_ += fmt::format("<path class=\"no-value\" fill=\"{}\" fill-rule=\"evenodd\" d=\"", noValueColor());
+            addPolygons(field.missing);
+            svg_ += "\"/>\n";
+        }
+        for (const drawing::FieldBand& band : field.bands) {
+            svg_ += fmt::format(
+                "<path class=\"band\" data-low=\"{:.9g}\" data-high=\"{:.9g}\" fill=\"{}\" "
+                "fill-rule=\"evenodd\" d=\"",
+                band.low, band.high, bandColor(look_, band));
+            addPolygons(band.polygons);
+            svg_ += "\"/>\n";
+        }
+        svg_ += "</g>\n";
+    }
+
+    // The lines of a field: a path per line, then the values on them.
+    void addIsolines() {
+        if (look_.field->isolines.empty()) return;
+        svg_ += layer("isolines", "Isolines");
+        for (const drawing::FieldIsoline& line : look_.field->isolines) {
+            svg_ += fmt::format("<path class=\"isoline\" data-value=\"{:.9g}\" d=\"", line.value);
+            addLine(line.points);
+            svg_ += line.points.front() == line.points.back() ? "Z\"/>\n" : "\"/>\n";
+        }
+        svg_ += "</g>\n" + layer("values", "Values");
+        for (const FieldLabel& label : placeFieldLabels(*look_.field, page_.millimetres)) {
+            const auto [x, y] = onPaper(label.at);
+            const std::string turn = fmt::format(" transform=\"rotate({} {} {})\"", shortNumber(-label.degrees, 2),
+                                                 shortNumber(x, 3), shortNumber(y, 3));
+            addText(x, y + 0.35 * label.size, label.size, label.text, turn.c_str());
+        }
+        svg_ += "</g>\n";
+    }
+
+    void addLegend() {
+        svg_ += layer("legend", "Legend");
+        const FieldLegend legend = makeFieldLegend(look_, kMargin, page_.legendTop(), page_.width - 2 * kMargin);
+        for (const FieldLegend::Box& box : legend.boxes)
+            svg_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"{}/>\n",
+                                shortNumber(box.x, 3), shortNumber(box.y, 3), shortNumber(box.width, 3),
+                                shortNumber(box.height, 3), box.color,
+                                box.hasOutline ? " stroke=\"#000\" stroke-width=\"0.13\"" : "");
+        for (const FieldLegend::Text& text : legend.texts)
+            addText(text.x, text.y, text.size, text.text, text.isCentred ? " text-anchor=\"middle\"" : "");
+        svg_ += "</g>\n";
     }
 
     void addBorders() {
@@ -328,6 +397,7 @@ private:
     const volume::SemanticVolume& volume_;
     DrawingStyle style_;
     const DrawingPage& page_;
+    const FieldLook& look_;
     int layers_ = 0;
     std::string svg_;
 };
@@ -337,7 +407,8 @@ private:
 Result<std::string> makeSvg(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                             const SvgOptions& options) {
     SVT_TRY(page, makeDrawingPage(drawing, options.scale));
-    return SvgWriter(drawing, volume, *page).write();
+    if (options.field.field != nullptr) addField(*options.field.field, *page);
+    return SvgWriter(drawing, volume, *page, options.field).write();
 }
 
 }  // namespace svt::writers

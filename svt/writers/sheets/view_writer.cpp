@@ -3,6 +3,7 @@
 #include <svt/writers/canvas/svg_canvas.hpp>
 #include <svt/writers/drawing/drawing_page.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/field/field_marks.hpp>
 #include <svt/writers/view_drawing.hpp>
 
 #include <fmt/format.h>
@@ -39,12 +40,28 @@ void addTitle(const drawing::SectionDrawing& drawing, const volume::SemanticVolu
                      n == 0 ? TextAnchor::Start : TextAnchor::Middle});
 }
 
+void addLegend(const FieldLook& look, const DrawingPage& page, SheetCanvas& canvas) {
+    constexpr double left = DrawingPage::kMargin;
+    canvas.beginLayer("Legend");
+    const FieldLegend legend = makeFieldLegend(look, left, page.legendTop(), page.width - 2 * left);
+    for (const FieldLegend::Box& box : legend.boxes) {
+        const double right = box.x + box.width, below = box.y + box.height;
+        const PaperPath path{{box.x, box.y}, {right, box.y}, {right, below}, {box.x, below}, {box.x, box.y}};
+        canvas.fill({path}, box.color);
+        if (box.hasOutline) canvas.stroke({path}, {0.13});
+    }
+    for (const FieldLegend::Text& text : legend.texts)
+        canvas.text({{text.x, text.y}, text.size, text.text, text.isCentred ? TextAnchor::Middle : TextAnchor::Start});
+    canvas.endLayer();
+}
+
 }  // namespace
 
 Result<PdfFile> makeSectionPdf(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                               double scale) {
+                               double scale, const FieldLook& look) {
     constexpr double kLongest = 5080;  // 14,400 points: ISO 32000-1, annex C
     SVT_TRY(page, makeDrawingPage(drawing, scale));
+    if (look.field != nullptr) addField(*look.field, *page);
     if (page->width > kLongest || page->height > kLongest)
         return Error(Code::BadArgument,
                      fmt::format("at 1:{} the page has {:.1f} x {:.1f} m; PDF allows 5.08 m; give a smaller scale",
@@ -52,7 +69,10 @@ Result<PdfFile> makeSectionPdf(const drawing::SectionDrawing& drawing, const vol
     SVT_TRY(canvas, makePdfCanvas(shownName(volume), &volume.labels));
     (*canvas)->beginSheet(page->width, page->height, planeText(drawing, volume));
     const double below = page->top + (page->high.v - page->low.v) * page->millimetres;
-    paintDrawing(drawing, volume, {{page->left, below}, page->low, page->millimetres}, **canvas);
+    PaintOptions options;
+    options.field = look;
+    paintDrawing(drawing, volume, {{page->left, below}, page->low, page->millimetres}, **canvas, options);
+    if (look.field != nullptr) addLegend(look, *page, **canvas);
     (*canvas)->beginLayer("Title");
     addTitle(drawing, volume, *page, **canvas);
     (*canvas)->endLayer();

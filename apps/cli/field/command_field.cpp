@@ -1,0 +1,251 @@
+#include <apps/cli/field/field_add.hpp>
+#include <apps/cli/field/field_tables.hpp>
+#include <apps/cli/options/catalog.hpp>
+#include <apps/cli/options/shared_options.hpp>
+#include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/output_files.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
+
+#include <svt/analyze/extents.hpp>
+#include <svt/analyze/selection.hpp>
+#include <svt/core/file.hpp>
+#include <svt/fields/field_sampler.hpp>
+#include <svt/fields/svt_fields.hpp>
+#include <svt/volume/svt_file.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace svt::cli {
+namespace {
+
+struct FieldListArguments {
+    std::filesystem::path input;
+    bool json = false;
+};
+
+struct FieldStatsArguments {
+    std::filesystem::path input, output;
+    std::string name, by;
+    fields::StatisticsOptions options;
+    bool json = false, csv = false;
+};
+
+struct FieldProbeArguments {
+    std::filesystem::path input, output;
+    std::string name;
+    std::vector<double> at;
+    bool json = false, csv = false;
+};
+
+struct FieldRemoveArguments {
+    std::filesystem::path input, output;
+    std::vector<std::string> names;
+};
+
+Result<void> requireSvt(const std::filesystem::path& input) {
+    SVT_TRY(file, PartFile::open(input));
+    SVT_TRY(head, file->read(0, 4096));
+    if (volume::looksLikeSvt(std::as_bytes(std::span(*head)))) return {};
+    return Error(
+        Code::BadVolume,
+        "this is not a .svt, so it has no fields; build a volume with 'svt build', then add fields with 'svt field "
+        "add'",
+        Place{input.string(), 0, 0, {}});
+}
+
+Result<int> runFieldList(const FieldListArguments& arguments) {
+    SVT_DO(requireSvt(arguments.input));
+    SVT_TRY(listed, fields::listFields(arguments.input));
+    if (arguments.json) {
+        print(fieldsJson(*listed));
+        return kDone;
+    }
+    if (listed->empty()) note("the volume has no fields; add some with 'svt field add'");
+    print(fieldTable(*listed), TableFormat::Text);
+    return kDone;
+}
+
+// The components of a query, each with its parts; without one, all components with voxels in the medium.
+Result<std::vector<StatisticsRow>> statisticsRows(const std::string& query, const fields::FieldHead& head,
+                                                  const volume::SemanticVolume& volume) {
+    std::vector<StatisticsRow> rows;
+    const auto& labels = volume.labels.labels;
+    if (query.empty()) {
+        SVT_TRY(isMedium, fields::mediumOf(head, volume));
+        for (std::uint32_t l = 0; l < labels.size(); ++l)
+            if (labels[l].voxels > 0 && (*isMedium)[labels[l].first] != 0) rows.push_back({l, {l}});
+        return rows;
+    }
+    SVT_TRY(selected, analyze::selectLabels(volume, query));
+    const analyze::Extents extents(volume.labels);
+    for (const std::uint32_t l : *selected)
+        rows.push_back({l, extents.standsForParts(l) ? extents.of(l) : std::vector{l}});
+    return rows;
+}
+
+// Writes a table and prints it. \param shown  the rows to print as text, if no file is written
+Result<void> putTable(const Table& table, const Table& shown, const std::filesystem::path& output, bool isJson,
+                      bool isCsv) {
+    if (!output.empty()) {
+        const std::string ending = endingOf(output);
+        std::string text;
+        if (ending == ".parquet") {
+            SVT_TRY(bytes, writers::makeParquet(table));
+            text = std::move(*bytes);
+        } else {
+            text = ending == ".json" ? writers::makeJson(table) : writers::makeCsv(table);
+        }
+        SVT_DO(writeFileAtomically(output, text));
+    }
+    TerminalProgress::hide();
+    if (isJson || isCsv)
+        print(table, isJson ? TableFormat::JsonRows : TableFormat::Csv);
+    else if (output.empty())
+        print(shown, TableFormat::Text);
+    else
+        summarize(fmt::format("{}: {} rows", output.string(), table.rows.size()));
+    return {};
+}
+
+Result<int> runFieldStats(const FieldStatsArguments& arguments) {
+    if (!arguments.by.empty()) SVT_DO(model::Query::parse(arguments.by));
+    SVT_DO(requireSvt(arguments.input));
+    const TerminalProgress progress;
+    SVT_TRY(field, fields::readField(arguments.input, arguments.name));
+    SVT_TRY(volume, volume::readSvt(arguments.input));
+    SVT_TRY(rows, statisticsRows(arguments.by, field->head, *volume));
+    fields::StatisticsOptions options = arguments.options;
+    if (field->head.components > 1) options.component = fields::StatisticsOptions::kMagnitude;
+    SVT_TRY(statistics, fields::sumField(*field, *volume, options));
+    const Table table = statisticsTable(field->head, *statistics, *rows, volume->labels, true);
+    const Table shown = statisticsTable(field->head, *statistics, *rows, volume->labels, false);
+    if (field->head.components > 1) note("the field is a vector; the figures are those of its length");
+    if (rows->empty()) note(fmt::format("no component has voxels in the medium '{}' of the field", field->head.medium));
+    SVT_DO(putTable(table, shown, arguments.output, arguments.json, arguments.csv));
+    return kDone;
+}
+
+Result<int> runFieldProbe(const FieldProbeArguments& arguments) {
+    SVT_DO(requireSvt(arguments.input));
+    const TerminalProgress progress;
+    SVT_TRY(field, fields::readField(arguments.input, arguments.name));
+    SVT_TRY(volume, volume::readSvt(arguments.input));
+    const Vec3d place{arguments.at[0], arguments.at[1], arguments.at[2]};
+    SVT_TRY(table, probeTable(*field, *volume, std::span(&place, 1)));
+    const bool isMissing =
+        std::all_of(table->rows.begin(), table->rows.end(), [](const Row& row) { return row.back().isEmpty(); });
+    SVT_DO(putTable(*table, *table, arguments.output, arguments.json, arguments.csv));
+    if (isMissing)
+        note(fmt::format("the field has no value at {},{},{}: the place is outside of its medium '{}' or of its places",
+                         place.x, place.y, place.z, field->head.medium));
+    return kDone;
+}
+
+Result<int> runFieldRemove(const FieldRemoveArguments& arguments) {
+    SVT_DO(requireSvt(arguments.input));
+    const std::filesystem::path& output = arguments.output.empty() ? arguments.input : arguments.output;
+    SVT_TRY(bytes, fields::writeFields(arguments.input, output, {}, arguments.names));
+    summarize(fmt::format("{}: {} {} removed, {:.1f} kB", output.string(), arguments.names.size(),
+                          arguments.names.size() == 1 ? "field" : "fields", double(*bytes) / 1000));
+    return kDone;
+}
+
+template <class All>
+constexpr auto volumeInput(std::string_view help) {
+    return member<&All::input>("volume", help, {.value = "F.svt", .isRequired = true, .file = FileUse::ModelOrVolume});
+}
+template <class All>
+constexpr auto nameOption() {
+    return member<&All::name>("name", "the name of the field, see 'svt field list'",
+                              {.value = "NAME", .isRequired = true});
+}
+template <class All>
+constexpr auto csvOption() {
+    return member<&All::csv>("--csv", "print the rows as CSV on stdout", {.group = "Output"});
+}
+template <class All>
+constexpr auto jsonRowsOption() {
+    return member<&All::json>("--json", "print the rows as JSON on stdout", {.group = "Output", .excludes = "--csv"});
+}
+
+Members<FieldListArguments> membersOf(const FieldListArguments*) noexcept {
+    using All = FieldListArguments;
+    static constexpr Member<All> kMembers[] = {volumeInput<All>("a .svt"), jsonOption<&All::json>(),
+                                               quietOption<All>()};
+    return kMembers;
+}
+
+Members<FieldStatsArguments> membersOf(const FieldStatsArguments*) noexcept {
+    using All = FieldStatsArguments;
+    using fields::StatisticsOptions;
+    static constexpr Member<All> kMembers[] = {
+        volumeInput<All>("a .svt with the field"),
+        nameOption<All>(),
+        member<&All::by>(
+            "--by",
+            "a row for each feature that a query selects, such as class=BuildingRoom; storeys and other groups "
+            "with all their parts",
+            {.value = "QUERY", .otherwise = "all components in the medium of the field"}),
+        member<&All::options, &StatisticsOptions::over>(
+            "--over",
+            "share of the volume above this value, in the unit of the field, and hours with the mean above it"),
+        member<&All::options, &StatisticsOptions::under>(
+            "--under", "share of the volume below this value, and hours with the mean below it"),
+        member<&All::output>("-o,--output", "write the rows of all times to a file",
+                             {.value = "FILE", .file = FileUse::Output, .formats = "csv|json|objectparquet"}),
+        jsonRowsOption<All>(),
+        csvOption<All>(),
+        threadsOption<&All::options, &StatisticsOptions::threads>(),
+        quietOption<All>(),
+    };
+    return kMembers;
+}
+
+Members<FieldProbeArguments> membersOf(const FieldProbeArguments*) noexcept {
+    using All = FieldProbeArguments;
+    static constexpr Member<All> kMembers[] = {
+        volumeInput<All>("a .svt with the field"),
+        nameOption<All>(),
+        memberAs<record::Numbers<3>, &All::at>("--at", "the place in world space",
+                                               {.value = "X,Y,Z", .unit = "metres", .isRequired = true}),
+        member<&All::output>("-o,--output", "write the rows to a file",
+                             {.value = "FILE", .file = FileUse::Output, .formats = "csv|json|objectparquet"}),
+        jsonRowsOption<All>(),
+        csvOption<All>(),
+        quietOption<All>(),
+    };
+    return kMembers;
+}
+
+Members<FieldRemoveArguments> membersOf(const FieldRemoveArguments*) noexcept {
+    using All = FieldRemoveArguments;
+    static constexpr Member<All> kMembers[] = {
+        member<&All::input>("volume", "the .svt with the fields",
+                            {.value = "F.svt", .isRequired = true, .file = FileUse::OtherInput, .isReadAgain = true}),
+        member<&All::names>("name", "names of the fields, see 'svt field list'", {.value = "NAME", .isRequired = true}),
+        member<&All::output>("-o,--output", "the .svt to write",
+                             {.value = "F.svt",
+                              .otherwise = "the volume itself, which is replaced after all is written",
+                              .file = FileUse::Output,
+                              .formats = "svt"}),
+        quietOption<All>(),
+    };
+    return kMembers;
+}
+
+}  // namespace
+
+extern const CommandText kFieldListCommand = commandOf<FieldListArguments, runFieldList>(
+    "field-list", "List the fields of a volume: temperatures, smoke, sensors");
+extern const CommandText kFieldAddCommand =
+    commandOf<FieldAddArguments, runFieldAdd>("field-add", "Add the values of a simulation or of sensors to a volume");
+extern const CommandText kFieldStatsCommand =
+    commandOf<FieldStatsArguments, runFieldStats>("field-stats", "Statistics of a field per component or room");
+extern const CommandText kFieldProbeCommand =
+    commandOf<FieldProbeArguments, runFieldProbe>("field-probe", "Print the values of a field at a place over time");
+extern const CommandText kFieldRemoveCommand =
+    commandOf<FieldRemoveArguments, runFieldRemove>("field-remove", "Remove fields from a volume");
+
+}  // namespace svt::cli

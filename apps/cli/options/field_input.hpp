@@ -1,0 +1,17 @@
+#pragma once
+/// \file
+/// Fields of the input of a command.
+
+#include <svt/core/result.hpp>
+#include <svt/fields/field.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace svt::cli {
+
+/// A field of a volume by name.
+/// \return the field, or BadArgument if the input is not a `.svt`, or an error of fields::readField()
+[[nodiscard]] Result<fields::Field> readFieldOf(const std::filesystem::path& input, const std::string& name);
+
+}  // namespace svt::cli

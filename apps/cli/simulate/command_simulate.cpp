@@ -1,0 +1,146 @@
+#include <apps/cli/city/city_input.hpp>
+#include <apps/cli/options/catalog.hpp>
+#include <apps/cli/options/load_volume.hpp>
+#include <apps/cli/options/shared_options.hpp>
+#include <apps/cli/output/file_content.hpp>
+#include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
+#include <apps/cli/simulate/heat_report.hpp>
+
+#include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
+#include <svt/fields/svt_fields.hpp>
+#include <svt/model/query.hpp>
+#include <svt/pipeline/labels.hpp>
+#include <svt/volume/svt_file.hpp>
+
+#include <fmt/format.h>
+
+#include <optional>
+
+namespace svt::cli {
+namespace {
+
+struct HeatArguments {
+    std::filesystem::path input, output, materials;
+    double outside = -5;
+    std::vector<std::string> inside;
+    double rsi = 0.13, rsiUp = 0.10, rsiDown = 0.17, rse = 0.04;
+    std::string name = "temperature";
+    bool isLeaky = false, json = false, csv = false;
+    pipeline::BuildOptions build;
+};
+
+// "QUERY:C"; the query may contain colons.
+Result<simulate::RoomTemperature> parseInside(const std::string& text) {
+    const std::size_t colon = text.rfind(':');
+    const auto celsius = colon == std::string::npos
+                             ? std::nullopt
+                             : parseNumber(withoutBlanks(std::string_view(text).substr(colon + 1)));
+    if (!celsius || colon == 0)
+        return Error(Code::BadArgument,
+                     fmt::format("--inside: '{}' is not QUERY:CELSIUS, such as 'name=Bath:24'", text));
+    return simulate::RoomTemperature{text.substr(0, colon), *celsius};
+}
+
+Result<simulate::HeatOptions> optionsOf(const HeatArguments& arguments) {
+    simulate::HeatOptions options;
+    options.outside = arguments.outside;
+    for (const std::string& text : arguments.inside) {
+        SVT_TRY(rule, parseInside(text));
+        SVT_DO(model::Query::parse(rule->query));
+        options.inside.push_back(std::move(*rule));
+    }
+    if (!arguments.materials.empty()) {
+        SVT_TRY(bytes, FileBytes::read(arguments.materials));
+        SVT_TRY(rules, simulate::parseThermalRules(bytes->text(), arguments.materials.string()));
+        for (const simulate::ThermalRule& rule : *rules) SVT_DO(model::Query::parse(rule.query));
+        options.materials = std::move(*rules);
+    }
+    options.resistances = {arguments.rsi, arguments.rsiUp, arguments.rsiDown, arguments.rse};
+    options.isLeaky = arguments.isLeaky;
+    options.name = arguments.name;
+    options.threads = arguments.build.threads;
+    return options;
+}
+
+Result<void> writeField(const HeatArguments& arguments, const volume::SemanticVolume& volume,
+                        const fields::Field& field) {
+    std::filesystem::path source = arguments.input;
+    if (contentOf(arguments.input) != FileContent::Volume) {
+        SVT_DO(volume::writeSvt(volume, arguments.output));
+        source = arguments.output;
+    }
+    SVT_DO(fields::writeFields(source, arguments.output, std::span(&field, 1)));
+    return {};
+}
+
+Result<int> runHeat(const HeatArguments& arguments) {
+    if (isCity(arguments.input))
+        return Error(Code::BadArgument,
+                     "'" + arguments.input.string() + "' is a city; simulate parts of it (svt city extract)");
+    SVT_TRY(options, optionsOf(arguments));
+    std::optional<TerminalProgress> progress(std::in_place);
+    pipeline::BuildOptions build = arguments.build;
+    // The faces of the model are planes of the volume; the file of -o keeps the meshes.
+    build.vectors = {.meshes = true, .isRequired = false};
+    SVT_TRY(volume, loadVolume(arguments.input, build, progress->get(), false));
+    options->progress = progress->get();
+    options->priority = pipeline::labelsByPriority(volume->labels);
+    Diagnostics findings;
+    auto result = simulate::simulateHeat(*volume, *options, findings);
+    progress.reset();
+    printVolumeFindings(findings, volume->source, arguments.input);
+    if (!result) return result.error();
+    if (!arguments.output.empty()) SVT_DO(writeField(arguments, *volume, result->temperature));
+    for (const std::string& text : heatNotes(*volume, *result)) note(text);
+    if (arguments.json)
+        print(heatJson(*volume, *result));
+    else if (arguments.csv || arguments.output.empty())
+        print(heatTable(*volume, *result), arguments.csv ? TableFormat::Csv : TableFormat::Text);
+    if (!arguments.output.empty())
+        summarize(fmt::format("{}: field '{}', {} rooms, {:.0f} W to outside air", arguments.output.string(),
+                              arguments.name, result->rooms.size(), -result->outside.watts));
+    return kDone;
+}
+
+Members<HeatArguments> membersOf(const HeatArguments*) noexcept {
+    using All = HeatArguments;
+    static constexpr Member<All> kMembers[] = {
+        modelInput<&All::input>("a .svt or a model file"),
+        member<&All::outside>("--outside", "temperature of outside air",
+                              {.unit = "degrees Celsius", .least = -273.15, .most = 5000, .group = "Air"}),
+        member<&All::inside>(
+            "--inside", "temperature of the rooms that a query selects, such as 'name=Bath:24'",
+            {.value = "QUERY:C", .otherwise = "by the model (SpaceTemperatureMin), else 20", .group = "Air"}),
+        member<&All::rsi>("--rsi", "surface resistance inside at walls",
+                          {.unit = "m2 K/W", .least = 0, .most = 100, .group = "Air"}),
+        member<&All::rsiUp>("--rsi-up", "surface resistance inside at ceilings, where heat flows up",
+                            {.unit = "m2 K/W", .least = 0, .most = 100, .group = "Air"}),
+        member<&All::rsiDown>("--rsi-down", "surface resistance inside at floors, where heat flows down",
+                              {.unit = "m2 K/W", .least = 0, .most = 100, .group = "Air"}),
+        member<&All::rse>("--rse", "surface resistance outside",
+                          {.unit = "m2 K/W", .least = 0, .most = 100, .group = "Air"}),
+        member<&All::isLeaky>("--leaky", "compute although rooms are open to outside air, without the heat of this air",
+                              {.group = "Air"}),
+        member<&All::materials>("--materials",
+                                "conductivities: a table with the columns query, conductivity, density, specificHeat",
+                                {.value = "T.csv", .group = "Materials", .file = FileUse::OtherInput}),
+        member<&All::output>("-o,--output", "write the volume with the field of temperatures",
+                             {.value = "F.svt", .group = "Output", .file = FileUse::Output, .formats = "svt"}),
+        member<&All::name>("--name", "name of the field", {.value = "NAME", .group = "Output"}),
+        member<&All::json>("--json", "print rooms, outside air and everything assumed as JSON on stdout",
+                           {.group = "Output", .excludes = "--csv"}),
+        member<&All::csv>("--csv", "print the rows as CSV on stdout", {.group = "Output"}),
+        quietOption<All>(),
+        part<&All::build>("build"),
+    };
+    return kMembers;
+}
+
+}  // namespace
+
+extern const CommandText kSimulateHeatCommand = commandOf<HeatArguments, runHeat>(
+    "simulate-heat", "Compute steady temperatures of walls, and the heat that rooms lose");
+
+}  // namespace svt::cli

@@ -1,0 +1,313 @@
+#include <svt/drawing/field/region_grid.hpp>
+
+#include <svt/core/parallel.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace svt::drawing {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kFewNodes = 16;  // regions with fewer get a finer grid
+constexpr double kFinest = 8;
+constexpr int kContinuedNodes = 3;  // by which values are continued
+
+// Cuts an edge at u or v; the same point for both directions of the edge.
+PlanePoint cutAt(PlanePoint a, PlanePoint b, double sideA, double sideB) noexcept {
+    if (b.u < a.u || (b.u == a.u && b.v < a.v)) {
+        std::swap(a, b);
+        std::swap(sideA, sideB);
+    }
+    const double t = sideA / (sideA - sideB);
+    return {a.u + (b.u - a.u) * t, a.v + (b.v - a.v) * t};
+}
+
+template <class SideOf, class Fix>
+Ring clipBy(const Ring& ring, const SideOf& sideOf, const Fix& fix) {
+    Ring kept;
+    for (std::size_t n = 0; n < ring.size(); ++n) {
+        const PlanePoint a = ring[n], b = ring[(n + 1) % ring.size()];
+        const double sideA = sideOf(a), sideB = sideOf(b);
+        if (sideA >= 0) kept.push_back(a);
+        if ((sideA > 0 && sideB < 0) || (sideA < 0 && sideB > 0)) kept.push_back(fix(cutAt(a, b, sideA, sideB)));
+    }
+    if (kept.size() < 3) kept.clear();
+    return kept;
+}
+
+constexpr auto kAsItIs = [](PlanePoint p) { return p; };
+
+}  // namespace
+
+Ring clipRing(const Ring& ring, PlanePoint a, PlanePoint b) {
+    // The same numbers for both directions of the line.
+    const bool isSwapped = b.u < a.u || (b.u == a.u && b.v < a.v);
+    const PlanePoint from = isSwapped ? b : a, to = isSwapped ? a : b;
+    const double sign = isSwapped ? -1 : 1;
+    return clipBy(
+        ring,
+        [&](PlanePoint p) { return sign * ((to.u - from.u) * (p.v - from.v) - (to.v - from.v) * (p.u - from.u)); },
+        kAsItIs);
+}
+
+RegionGrid::RegionGrid(const FieldRegion& region, const FieldSource& source) : region_(region), source_(source) {
+    for (const Ring& ring : region.rings)
+        for (std::size_t n = 0; n < ring.size(); ++n) edges_.emplace_back(ring[n], ring[(n + 1) % ring.size()]);
+    // Narrow regions may have few nodes: between the lattice's nodes, the sampler knows values as well.
+    // Between both sides of a wall there must be two nodes, so that neither side takes values of the other.
+    for (double refine = 1; refine <= kFinest; refine *= 2)
+        if (fill(refine) >= kFewNodes && !hasThinWall()) break;
+    extend();
+    findPlaces();
+}
+
+// Makes the nodes and samples them.
+// \return how many lie in the region's own voxels
+std::size_t RegionGrid::fill(double refine) {
+    PlanePoint low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+    for (const auto& [p, next] : edges_) {
+        low = {std::min(low.u, p.u), std::min(low.v, p.v)};
+        high = {std::max(high.u, p.u), std::max(high.v, p.v)};
+    }
+    NodeLines lines = nodeLines(source_, low, high, refine);
+    us_ = std::move(lines.us);
+    vs_ = std::move(lines.vs);
+    findNodes();
+    parallelFor(vs_.size(), 8, source_.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t j = begin; j < end; ++j) sampleRow(j);
+    });
+    return static_cast<std::size_t>(
+        std::count_if(nodes_.begin(), nodes_.end(), [](Node node) { return node != Node::Beyond; }));
+}
+
+// Finds the nodes inside, by the edges to their left.
+void RegionGrid::findNodes() {
+    inside_.assign(us_.size() * vs_.size(), 0);
+    nodes_.assign(inside_.size(), Node::Beyond);
+    values_.assign(inside_.size(), kNone);
+    std::vector<std::vector<double>> crossings(vs_.size());
+    for (const auto& [a, b] : edges_) {
+        const double low = std::min(a.v, b.v), high = std::max(a.v, b.v);
+        auto j = static_cast<std::size_t>(std::lower_bound(vs_.begin(), vs_.end(), low) - vs_.begin());
+        for (; j < vs_.size() && vs_[j] <= high; ++j)
+            if ((a.v > vs_[j]) != (b.v > vs_[j]))
+                crossings[j].push_back(a.u + (vs_[j] - a.v) / (b.v - a.v) * (b.u - a.u));
+    }
+    for (std::size_t j = 0; j < vs_.size(); ++j) {
+        std::sort(crossings[j].begin(), crossings[j].end());
+        std::size_t passed = 0;
+        for (std::size_t i = 0; i < us_.size(); ++i) {
+            while (passed < crossings[j].size() && crossings[j][passed] < us_[i]) ++passed;
+            inside_[node(i, j)] = passed % 2;
+        }
+    }
+}
+
+volume::Scalar RegionGrid::scalarAt(PlanePoint p) const noexcept {
+    const Vec3d index = source_.volume.grid.indexFromWorld(source_.axes.worldFromPlane(p));
+    const Vec3i n = source_.volume.grid.dimension();
+    Vec3i voxel;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(index[axis] >= -0.5 && index[axis] < n[axis] - 0.5)) return 0;
+        voxel[axis] = static_cast<std::int32_t>(std::floor(index[axis] + 0.5));
+    }
+    return source_.volume.columns.scalarAt(voxel.x, voxel.y, voxel.z);
+}
+
+void RegionGrid::sampleRow(std::size_t j) {
+    for (std::size_t i = 0; i < us_.size(); ++i) {
+        const std::size_t n = node(i, j);
+        if (inside_[n] == 0) continue;
+        const PlanePoint p{us_[i], vs_[j]};
+        // Near the outline, the voxel may be one of the wall: the value continues from the region.
+        const volume::Scalar scalar = scalarAt(p);
+        if (source_.isMedium[scalar] == 0 || (source_.isAir[scalar] != 0) != region_.isAir) continue;
+        const float value = source_.sampler.atSeconds(
+            source_.volume.grid.indexFromWorld(source_.axes.worldFromPlane(p)), source_.seconds);
+        nodes_[n] = std::isnan(value) ? Node::Missing : Node::Known;
+        values_[n] = double{value};
+    }
+}
+
+// Whether a node outside has values on both sides of it, along u or v.
+bool RegionGrid::hasThinWall() const noexcept {
+    const std::size_t width = us_.size();
+    for (std::size_t j = 1; j + 1 < vs_.size(); ++j)
+        for (std::size_t i = 1; i + 1 < width; ++i) {
+            const std::size_t n = node(i, j);
+            if (nodes_[n] != Node::Beyond) continue;
+            for (const std::size_t step : {std::size_t{1}, width})
+                if (nodes_[n - step] == Node::Known && nodes_[n + step] == Node::Known) return true;
+        }
+    return false;
+}
+
+// Continues the values to nodes beyond the region and in the voxels of its walls, linearly along the eight directions.
+void RegionGrid::extend() {
+    const auto width = static_cast<std::ptrdiff_t>(us_.size()), height = static_cast<std::ptrdiff_t>(vs_.size());
+    std::vector<std::size_t> front;
+    for (int step = 0; step < kContinuedNodes; ++step) {
+        std::vector<std::pair<std::size_t, double>> found;
+        for (std::ptrdiff_t j = 0; j < height; ++j)
+            for (std::ptrdiff_t i = 0; i < width; ++i) {
+                const auto at = [&](std::ptrdiff_t di, std::ptrdiff_t dj) -> double {
+                    const std::ptrdiff_t x = i + di, y = j + dj;
+                    if (x < 0 || y < 0 || x >= width || y >= height) return kNone;
+                    return values_[static_cast<std::size_t>(x + y * width)];
+                };
+                const auto own = static_cast<std::size_t>(i + j * width);
+                if (nodes_[own] != Node::Beyond || !std::isnan(values_[own])) continue;
+                double linear = 0, constant = 0;
+                int linears = 0, constants = 0;
+                for (int d = 0; d < 9; ++d) {
+                    const int du = d % 3 - 1, dv = d / 3 - 1;
+                    const double near = at(du, dv), far = at(2 * du, 2 * dv);
+                    if ((du == 0 && dv == 0) || std::isnan(near)) continue;
+                    constant += near;
+                    ++constants;
+                    if (std::isnan(far)) continue;
+                    // The steps along u and v may differ on a rectilinear lattice; then only the axes are linear.
+                    const auto gap = [&](const std::vector<double>& lines, std::ptrdiff_t k, int sign) {
+                        const auto coordinate = [&](std::ptrdiff_t m) { return lines[static_cast<std::size_t>(m)]; };
+                        return (coordinate(k + sign) - coordinate(k)) /
+                               (coordinate(k + 2 * sign) - coordinate(k + sign));
+                    };
+                    const double ratioU = du != 0 ? gap(us_, i, du) : gap(vs_, j, dv);
+                    const double ratioV = dv != 0 ? gap(vs_, j, dv) : ratioU;
+                    if (std::abs(ratioU - ratioV) > 1e-9) continue;
+                    linear += near + (near - far) * ratioU;
+                    ++linears;
+                }
+                if (linears > 0)
+                    found.emplace_back(own, linear / linears);
+                else if (constants > 0)
+                    found.emplace_back(own, constant / constants);
+            }
+        for (const auto& [n, value] : found) values_[n] = value;
+    }
+}
+
+void RegionGrid::findPlaces() {
+    places_.assign(columns() * rows(), Place::Outside);
+    std::vector<std::pair<std::size_t, std::uint32_t>> pairs;
+    const auto rowOf = [&](double v) {
+        const auto above = static_cast<std::size_t>(std::upper_bound(vs_.begin(), vs_.end(), v) - vs_.begin());
+        return std::clamp<std::size_t>(above == 0 ? 0 : above - 1, 0, rows() - 1);
+    };
+    const auto columnOf = [&](double u) {
+        const auto above = static_cast<std::size_t>(std::upper_bound(us_.begin(), us_.end(), u) - us_.begin());
+        return std::clamp<std::size_t>(above == 0 ? 0 : above - 1, 0, columns() - 1);
+    };
+    constexpr double kEdgeHair = 1e-9;
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+        const PlanePoint a = edges_[e].first, b = edges_[e].second;  // captured below
+        const double low = std::min(a.v, b.v) - kEdgeHair, high = std::max(a.v, b.v) + kEdgeHair;
+        for (std::size_t row = rowOf(low); row <= rowOf(high); ++row) {
+            pairs.emplace_back(row, e);
+            double from = std::min(a.u, b.u), to = std::max(a.u, b.u);
+            if (a.v != b.v) {
+                const auto uAt = [&](double v) {
+                    return a.u +
+                           (std::clamp(v, std::min(a.v, b.v), std::max(a.v, b.v)) - a.v) / (b.v - a.v) * (b.u - a.u);
+                };
+                const double u0 = uAt(vs_[row]), u1 = uAt(vs_[row + 1]);
+                from = std::min(u0, u1);
+                to = std::max(u0, u1);
+            }
+            for (std::size_t column = columnOf(from - kEdgeHair); column <= columnOf(to + kEdgeHair); ++column)
+                places_[column + row * columns()] = Place::Border;
+        }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    rowStarts_.assign(rows() + 1, 0);
+    rowEdges_.clear();
+    for (const auto& [row, edge] : pairs) {
+        rowEdges_.push_back(edge);
+        ++rowStarts_[row + 1];
+    }
+    for (std::size_t row = 0; row < rows(); ++row) rowStarts_[row + 1] += rowStarts_[row];
+    for (std::size_t row = 0; row < rows(); ++row)
+        for (std::size_t column = 0; column < columns(); ++column) {
+            Place& place = places_[column + row * columns()];
+            if (place == Place::Outside && inside_[node(column, row)] != 0) place = Place::Inside;
+            bool isKnown = true;
+            for (int corner = 0; corner < 4; ++corner) isKnown = isKnown && !std::isnan(value(column, row, corner));
+            if (place != Place::Outside && !isKnown) place = Place::Missing;
+        }
+}
+
+bool RegionGrid::isInside(std::size_t row, PlanePoint p) const noexcept {
+    bool inside = false;
+    for (const std::uint32_t e : edgesOf(row)) {
+        const auto& [a, b] = edges_[e];
+        if ((a.v > p.v) != (b.v > p.v) && a.u + (p.v - a.v) / (b.v - a.v) * (b.u - a.u) < p.u) inside = !inside;
+    }
+    return inside;
+}
+
+std::vector<std::pair<PlanePoint, PlanePoint>> RegionGrid::clip(std::size_t column, std::size_t row, PlanePoint from,
+                                                                PlanePoint to) const {
+    std::vector<double> cuts{0, 1};
+    const double u = to.u - from.u, v = to.v - from.v;
+    const double left = us_[column], right = us_[column + 1];
+    for (const std::uint32_t e : edgesOf(row)) {
+        const auto& [a, b] = edges_[e];
+        if (std::max(a.u, b.u) < left || std::min(a.u, b.u) > right) continue;
+        const double eu = b.u - a.u, ev = b.v - a.v, area = u * ev - v * eu;
+        if (area == 0) continue;
+        const double t = ((a.u - from.u) * ev - (a.v - from.v) * eu) / area;
+        const double s = ((a.u - from.u) * v - (a.v - from.v) * u) / area;
+        if (t > 0 && t < 1 && s >= -1e-9 && s <= 1 + 1e-9) cuts.push_back(t);
+    }
+    std::sort(cuts.begin(), cuts.end());
+    std::vector<std::pair<PlanePoint, PlanePoint>> parts;
+    const auto at = [&](double t) { return t == 0 ? from : t == 1 ? to : PlanePoint{from.u + u * t, from.v + v * t}; };
+    for (std::size_t n = 0; n + 1 < cuts.size(); ++n) {
+        if (!(cuts[n + 1] - cuts[n] > 1e-12) || !isInside(row, at((cuts[n] + cuts[n + 1]) / 2))) continue;
+        // Adjacent parts become one again.
+        if (!parts.empty() && parts.back().second == at(cuts[n]))
+            parts.back().second = at(cuts[n + 1]);
+        else
+            parts.emplace_back(at(cuts[n]), at(cuts[n + 1]));
+    }
+    return parts;
+}
+
+std::vector<Ring> RegionGrid::ringsIn(std::size_t column, std::size_t row) const {
+    const auto above = [](double v) { return [v](PlanePoint p) { return p.v - v; }; };
+    const auto below = [](double v) { return [v](PlanePoint p) { return v - p.v; }; };
+    const auto after = [](double u) { return [u](PlanePoint p) { return p.u - u; }; };
+    const auto before = [](double u) { return [u](PlanePoint p) { return u - p.u; }; };
+    const auto atV = [](double v) { return [v](PlanePoint p) { return PlanePoint{p.u, v}; }; };
+    const auto atU = [](double u) { return [u](PlanePoint p) { return PlanePoint{u, p.v}; }; };
+    if (clippedRow_ != row) {
+        clippedRow_ = row;
+        rowRings_.clear();
+        const double low = vs_[row], high = vs_[row + 1];
+        for (const Ring& ring : region_.rings) {
+            Ring part = clipBy(clipBy(ring, above(low), atV(low)), below(high), atV(high));
+            if (!part.empty()) rowRings_.push_back(std::move(part));
+        }
+    }
+    std::vector<Ring> rings;
+    const double left = us_[column], right = us_[column + 1];
+    for (const Ring& ring : rowRings_) {
+        Ring part = clipBy(clipBy(ring, after(left), atU(left)), before(right), atU(right));
+        if (!part.empty()) rings.push_back(std::move(part));
+    }
+    return rings;
+}
+
+bool RegionGrid::isInComponent(std::size_t column, std::size_t row) const noexcept {
+    for (int n = 0; n < 4; ++n) {
+        const volume::Scalar scalar = scalarAt(corner(column, row, n));
+        if (inside_[node(column + (n == 1 || n == 2 ? 1 : 0), row + (n >= 2 ? 1 : 0))] != 0 && scalar != 0 &&
+            source_.isMedium[scalar] != 0 && (source_.isAir[scalar] != 0) == region_.isAir)
+            return true;
+    }
+    return false;
+}
+
+}  // namespace svt::drawing
