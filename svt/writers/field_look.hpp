@@ -3,13 +3,14 @@
 /// A field on a section drawing, as the writers show it: bands by a colour map, lines with their values, a legend.
 
 #include <svt/drawing/field_drawing.hpp>
-#include <svt/image/color_map.hpp>
+
+#include <vector>
 
 namespace svt::writers {
 
 struct FieldLook {
     const drawing::FieldDrawing* field = nullptr;  ///< of the drawing; null: none. Must outlive the call
-    image::ColorMap map = image::ColorMap::Viridis;
+    std::vector<Vec3f> colors;  ///< of the range, from low to high, such as image::mapColors(); sRGB, 0..1
 };
 
 }  // namespace svt::writers

@@ -174,7 +174,7 @@ Result<int> runSection(const SectionArguments& arguments) {
     SVT_TRY(drawing, drawing::drawSection(*volume, *plane, optionsOf(arguments, nothing)));
     SVT_TRY(field, drawnField(arguments, *drawing, *volume));
     return writeSection(arguments, *drawing, *volume, *hatches, nothing,
-                        {field->has_value() ? &**field : nullptr, arguments.map});
+                        {field->has_value() ? &**field : nullptr, image::mapColors(arguments.map)});
 }
 
 Members<SectionArguments> membersOf(const SectionArguments*) noexcept {

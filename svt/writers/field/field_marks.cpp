@@ -1,6 +1,7 @@
 #include <svt/writers/field/field_marks.hpp>
 
 #include <svt/core/rounding.hpp>
+#include <svt/image/color_map.hpp>
 #include <svt/image/color_text.hpp>
 
 #include <fmt/format.h>
@@ -59,10 +60,21 @@ std::vector<double> ticksOf(const drawing::FieldDrawing& field) {
     return ticks;
 }
 
+// The colour at a share of the range, linear between the entries.
+std::string colorAt(const FieldLook& look, double share) {
+    if (look.colors.empty()) return noValueColor();
+    const std::size_t last = look.colors.size() - 1;
+    const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(last);
+    const std::size_t below = std::min(static_cast<std::size_t>(at), last);
+    const auto rest = static_cast<float>(at - static_cast<double>(below));
+    const Vec3f low = look.colors[below], high = look.colors[std::min(below + 1, last)];
+    return image::colorText(low * (1 - rest) + high * rest);
+}
+
 }  // namespace
 
 std::string bandColor(const FieldLook& look, const drawing::FieldBand& band) {
-    return image::colorText(image::mapColor(look.map, look.field->shareOf((band.low + band.high) / 2)));
+    return colorAt(look, look.field->shareOf((band.low + band.high) / 2));
 }
 
 std::string noValueColor() { return image::colorText(image::kNoValueColor); }
@@ -151,8 +163,8 @@ FieldLegend makeFieldLegend(const FieldLook& look, double left, double top, doub
     } else {
         constexpr int kSteps = 64;
         for (int n = 0; n < kSteps; ++n)
-            legend.boxes.push_back({left + bar * n / kSteps, y, bar / kSteps, kBarHeight,
-                                    image::colorText(image::mapColor(look.map, (n + 0.5) / kSteps)), false});
+            legend.boxes.push_back(
+                {left + bar * n / kSteps, y, bar / kSteps, kBarHeight, colorAt(look, (n + 0.5) / kSteps), false});
     }
     for (const double tick : ticksOf(field)) {
         legend.boxes.push_back({placeOf(tick) - 0.065, y, 0.13, kBarHeight + 0.8, "#000000", false});

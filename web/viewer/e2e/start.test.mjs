@@ -15,7 +15,7 @@ const axe = readFileSync(join(repository, "web/viewer/node_modules/axe-core/axe.
 
 /** Scripts that are fetched when they are first used. */
 const kOnRequest =
-  /^(section_panes|object_table|command_palette|context_menu|help_dialog|aim_layer|details|late_texts|picture_keys|walk_pad|print_sheets)-/;
+  /^(bcf|section_panes|object_table|command_palette|context_menu|help_dialog|aim_layer|details|late_texts|picture_keys|walk_pad|print_sheets)-/;
 
 describe("start", () => {
   it("keeps the budget of bytes", (t) => {

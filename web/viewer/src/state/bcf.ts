@@ -10,7 +10,7 @@ import { add, dot, normalized, scale, sub } from "../camera/vec";
 import { kSceneMembers } from "../generated/scene_members";
 import { normalOf } from "../tools/plane_outline";
 import { unzipped, zipOf } from "../ui/files";
-import type { Bookmark } from "./bookmarks";
+import { dataUrl, kSmallPicture, kStatuses, type Bookmark } from "./bookmarks";
 import type { FeatureIndex } from "./feature_index";
 import { isAllowed } from "./member_controls";
 import { ofClass, ofId } from "./queries";
@@ -48,8 +48,6 @@ function guidOf(text: string): string {
     .join("");
   return [hex.slice(0, 8), hex.slice(8, 12), `8${hex.slice(13, 16)}`, `8${hex.slice(17, 20)}`, hex.slice(20)].join("-");
 }
-
-export const kStatuses = ["Open", "In Progress", "Closed"] as const;
 
 /** The picture of a topic as PNG; null: it cannot be drawn. */
 export type Snapshot = (state: ViewState) => Promise<Uint8Array | null>;
@@ -212,9 +210,6 @@ function textsOf(topic: Document): Pick<Bookmark, "comment" | "author" | "status
   return Object.fromEntries(Object.entries(given).filter(([, value]) => value));
 }
 
-/** Pixels of the small picture of a bookmark. */
-export const kSmallPicture: [number, number] = [112, 70];
-
 /** A snapshot in the size of bookmarks, cut to their shape, as a data URL; null: the browser cannot read it. */
 async function smallPicture(bytes: Uint8Array): Promise<string | null> {
   try {
@@ -228,13 +223,6 @@ async function smallPicture(bytes: Uint8Array): Promise<string | null> {
   } catch {
     return null;
   }
-}
-
-/** A PNG as a data URL. */
-export function dataUrl(png: Uint8Array): string {
-  let text = "";
-  for (const byte of png) text += String.fromCharCode(byte);
-  return `data:image/png;base64,${btoa(text)}`;
 }
 
 function parsed(content: Uint8Array): Document {

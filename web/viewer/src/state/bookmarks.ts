@@ -82,3 +82,16 @@ export function saveBookmarks(model: string, bookmarks: Bookmark[], store: Stora
 /** Points on one line, everything else in the usual layout. */
 export const pretty = (scene: Scene) =>
   `${JSON.stringify(scene, null, 2).replace(/\[\s+([-\d.,\se]+?)\s+\]/g, (_, n: string) => `[${n.replace(/\s+/g, " ")}]`)}\n`;
+
+/** States of a topic of BCF. */
+export const kStatuses = ["Open", "In Progress", "Closed"] as const;
+
+/** Pixels of the small picture of a bookmark. */
+export const kSmallPicture: [number, number] = [112, 70];
+
+/** A PNG as a data URL. */
+export function dataUrl(png: Uint8Array): string {
+  let text = "";
+  for (const byte of png) text += String.fromCharCode(byte);
+  return `data:image/png;base64,${btoa(text)}`;
+}

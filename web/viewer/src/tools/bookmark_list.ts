@@ -1,8 +1,19 @@
 /** Bookmarks: a list with pictures, names, comments and status, which can be walked through, ordered, and passed on as a file. */
 
 import { css, html, nothing } from "lit";
-import { bookmarkFile, bookmarksOfFile, loadBookmarks, movedUp, pretty, saveBookmarks, type Bookmark } from "../state/bookmarks";
-import { bcfOf, dataUrl, kSmallPicture, kStatuses, viewsOfBcf, type BcfModel } from "../state/bcf";
+import {
+  type Bookmark,
+  bookmarkFile,
+  bookmarksOfFile,
+  dataUrl,
+  kSmallPicture,
+  kStatuses,
+  loadBookmarks,
+  movedUp,
+  pretty,
+  saveBookmarks,
+} from "../state/bookmarks";
+import type { BcfModel } from "../state/bcf";
 import type { ViewState } from "../state/view_state";
 import { dateText, t } from "../texts";
 import { toolText, type ToolTextKey } from "../tool_texts";
@@ -210,6 +221,7 @@ export class BookmarkList extends Part {
     const model = this.bcfModel();
     if (!model) return;
     try {
+      const { viewsOfBcf } = await import("../state/bcf");
       const { views, missing } = await viewsOfBcf(await file.arrayBuffer(), model);
       if (!views.length) return session.messages.tell(t("noViews", { name: file.name }));
       this.store([...this.views, ...views]);
@@ -230,6 +242,7 @@ export class BookmarkList extends Part {
     this.isWorking = true;
     try {
       const snapshot = (state: ViewState) => this.pictureOf(state, kSnapshot);
+      const { bcfOf } = await import("../state/bcf");
       save(await bcfOf(this.views, model, remembered() || "SVT", new Date(), snapshot), "views.bcf");
     } catch (error) {
       this.session.messages.fail(error);
