@@ -92,6 +92,8 @@ Arguments complete(const json& command, const json& option, const std::string& p
             value = "two.gml";
         else if (other.at("kind") == "whole")
             value = "0";
+        else if (other.value("value", "") == "X,Y,Z")
+            value = "0,0,0";
         if (longNameOf(other).starts_with("--")) arguments.push_back(longNameOf(other));
         arguments.push_back(value);
     }
