@@ -26,10 +26,10 @@ struct CityChanges {
 };
 
 /// Finds the tiles that differ. Tiles that were divided or joined are one place, and so are the tiles before and after of a
-/// building that moved to another tile.
+/// building that moved to another tile and kept its id.
 /// \param threads  0: all cores; the result does not depend on it
-/// \return the changes; BadArgument if the cities have different spacings or reference systems, or if one is incomplete; or
-///         an error of City::find(), City::readBytes(); Cancelled
+/// \return the changes; BadArgument if the cities have different spacings or reference systems; CityIncomplete if packs of
+///         one are missing; Cancelled; or an error of City::find(), City::readBytes(), openSvt()
 /// Cost: the bytes of detail 0 of both cities are read; label tables of tiles that differ are decoded. Memory: the index, the
 /// ids of buildings in tiles that differ, and two tiles per thread.
 [[nodiscard]] Result<CityChanges> findCityChanges(const City& was, const City& is, int threads = 0,

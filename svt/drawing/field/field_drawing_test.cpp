@@ -280,7 +280,8 @@ TEST(FieldDrawing, ThinWallsWithinOneRegionKeepTheirSidesApart) {
     const fields::Field field = fieldOf("air", [](Vec3d p) { return p.x < 2 ? 20.5 : 30.5; });
     const FieldDrawing made = drawn(plan, volume, field, {.isolines = 1});
     for (const FieldIsoline& line : made.isolines)
-        for (const PlanePoint p : line.points) EXPECT_GT(p.v, 1.9) << "beside the wall there is no change";
+        for (const PlanePoint p : line.points)
+            EXPECT_GT(p.v, 1.9) << "a line lies beside the wall, where all values are equal";
     EXPECT_LT(lengthInside(made.isolines, plan, {0}), 1e-3);
 }
 

@@ -127,7 +127,7 @@ FieldSums& FieldSums::operator+=(const FieldSums& other) noexcept {
 
 Result<FieldStatistics> sumField(const Field& field, const SemanticVolume& volume, const StatisticsOptions& options) {
     if (options.component < StatisticsOptions::kMagnitude || options.component >= field.head.components)
-        return Error(Code::BadArgument, fmt::format("field '{}' has {} components, there is no component {}",
+        return Error(Code::BadArgument, fmt::format("the field '{}' has {} components; component {} does not exist",
                                                     field.head.name, field.head.components, options.component));
     SVT_TRY(sampler, FieldSampler::make(field, volume));
     SVT_TRY(isMedium, mediumOf(field.head, volume));

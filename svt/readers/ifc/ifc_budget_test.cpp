@@ -15,7 +15,7 @@ namespace {
 using namespace test;
 
 // Of processor time, for one file. The budgets of the reader allow for some tenths of it.
-constexpr double kMostSeconds = kIsSanitized ? 60 : 10;
+constexpr double kMostSeconds = kIsSanitized ? 60 : 3;
 
 struct BudgetOutcome {
     Code error = Code::Internal;  // where there is no model

@@ -89,7 +89,7 @@ TEST_F(CityDiff, FindsEachChangeInTheTilesThatDiffer) {
     EXPECT_NEAR(rows.at("b07")["removed"].get<double>(), 4000, 1e-3);
     EXPECT_EQ(rows.at("b08")["change"], "moved");
     EXPECT_NEAR(rows.at("b08")["vector"][1].get<double>(), 3, 0.02);
-    EXPECT_FALSE(rows.count("renamed")) << "another id at the same place is no difference";
+    EXPECT_FALSE(rows.count("renamed")) << "a building that only has a new id has no row";
     EXPECT_EQ(rows.at("extra")["change"], "added");
     EXPECT_EQ(rows.at("b50")["change"], "moved") << "also from tile to tile";
     EXPECT_NEAR(rows.at("b50")["vector"][1].get<double>(), 2048, 0.02);
