@@ -144,6 +144,10 @@ Result<std::optional<drawing::FieldDrawing>> drawnField(const SectionArguments& 
                                                         const drawing::SectionDrawing& drawing,
                                                         const volume::SemanticVolume& volume) {
     if (arguments.field.empty()) return std::optional<drawing::FieldDrawing>();
+    if (!writers::kDrawsFields)
+        return Error(
+            Code::BadArgument,
+            "the command for Node.js draws no fields in sections; use that of the .deb, or svt render --field");
     SVT_TRY(field, readFieldOf(arguments.input, arguments.field));
     drawing::FieldDrawingOptions options = arguments.fieldDrawing;
     options.threads = arguments.build.threads;

@@ -1,4 +1,5 @@
 #include <apps/cli/options/catalog.hpp>
+#include <apps/cli/options/field_input.hpp>
 #include <apps/cli/options/load_volume.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
@@ -111,6 +112,7 @@ Result<int> runShell(const ShellArguments& arguments) {
     const auto json = makeShell(*volume, arguments, progress->get());
     progress.reset();
     if (!json) return json.error();
+    if (endingOf(arguments.output) == ".svt") noteLostFields(arguments.input);
     if (arguments.json) {
         print(*json);
         return kDone;

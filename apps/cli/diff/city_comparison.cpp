@@ -13,28 +13,6 @@ namespace {
 
 using compare::Change;
 
-// Adds the sums of a class, as comparisonJson() writes them. A sum without known volumes stays null.
-void addClass(Json& classes, const Json& added) {
-    for (Json& sums : classes) {
-        if (sums["class"] != added["class"]) continue;
-        for (const char* count : {"objects", "withoutVolume"})
-            sums[count] = sums[count].get<std::size_t>() + added[count].get<std::size_t>();
-        const bool hadVolume = !sums["added"].is_null();
-        for (const char* figure : {"added", "removed"})
-            if (!added[figure].is_null())
-                sums[figure] = (hadVolume ? sums[figure].get<double>() : 0.0) + added[figure].get<double>();
-        // A bound that is unknown for a part is unknown for the whole.
-        if (hadVolume && !added["added"].is_null())
-            sums["bound"] = sums["bound"].is_null() || added["bound"].is_null()
-                                ? Json()
-                                : Json(sums["bound"].get<double>() + added["bound"].get<double>());
-        else if (!hadVolume)
-            sums["bound"] = added["bound"];
-        return;
-    }
-    classes.push_back(added);
-}
-
 void addPlace(const Compared& compared, CityComparison& sum) {
     const compare::Comparison& comparison = compared.comparison;
     if (!comparison.isDifferent()) return;
@@ -42,14 +20,10 @@ void addPlace(const Compared& compared, CityComparison& sum) {
     if (sum.rows.columns.empty()) sum.rows.columns = std::move(table.columns);
     sum.rows.rows.insert(sum.rows.rows.end(), std::make_move_iterator(table.rows.begin()),
                          std::make_move_iterator(table.rows.end()));
-    Json json = comparisonJson(compared);
-    for (std::size_t r = 0; r < comparison.rows.size(); ++r) {
-        const compare::ComparisonRow& row = comparison.rows[r];
-        if (!row.isDifferent()) continue;
-        sum.rowsJson.push_back(std::move(json["rows"][r]));
-        if (row.hasGeometry) ++sum.counts[std::size_t(row.change)];
-    }
-    for (const Json& one : json["summary"]["classes"]) addClass(sum.classesJson, one);
+    for (Json& row : rowsJson(compared, false)) sum.rowsJson.push_back(std::move(row));
+    sum.classes = sumsByClass(compared, allRows(comparison), std::move(sum.classes));
+    for (std::size_t change = 0; change < compare::kChangeCount; ++change)
+        if (static_cast<Change>(change) != Change::Same) sum.counts[change] += comparison.counts[change];
     sum.otherProperties += comparison.otherProperties;
     sum.isComplete = sum.isComplete && comparison.isComplete;
 }
@@ -60,7 +34,7 @@ Result<CityComparison> compareCities(const city::City& was, const city::City& is
                                      const compare::CompareOptions& options) {
     SVT_TRY(changes, city::findCityChanges(was, is, options.threads, options.progress));
     CityComparison sum;
-    sum.rowsJson = sum.classesJson = Json::array();
+    sum.rowsJson = Json::array();
     sum.equalTiles = changes->equalTiles;
     sum.equalBuildings = changes->equalBuildings;
     sum.apart = changes->apart;
@@ -89,7 +63,7 @@ Json cityComparisonJson(const CityComparison& comparison) {
         if (const auto kind = static_cast<Change>(change); kind != Change::Same)
             summary["changes"][std::string(nameOf(kind))] = comparison.counts[change];
     summary["otherProperties"] = comparison.otherProperties;
-    summary["classes"] = comparison.classesJson;
+    summary["classes"] = classesJson(comparison.classes);
     summary["complete"] = comparison.isComplete;
     summary["changedTiles"] = comparison.changedTiles;
     summary["equalTiles"] = comparison.equalTiles;
@@ -101,7 +75,6 @@ Json cityComparisonJson(const CityComparison& comparison) {
 std::string citySummary(const CityComparison& comparison) {
     compare::Comparison sums;
     sums.counts = comparison.counts;
-    sums.counts[std::size_t(Change::Same)] = 0;
     sums.otherProperties = comparison.otherProperties;
     const std::uint64_t tiles = comparison.changedTiles + comparison.equalTiles;
     const std::string changes = comparison.isDifferent() ? fmt::format("{} in {} of {} tiles", comparisonSummary(sums),

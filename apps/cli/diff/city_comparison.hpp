@@ -2,21 +2,25 @@
 /// \file
 /// The changes between two states of a city, from the tiles that differ.
 
+#include <apps/cli/diff/compared.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/table.hpp>
 
 #include <svt/city/city_changes.hpp>
 #include <svt/compare/comparison.hpp>
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace svt::cli {
 
 struct CityComparison {
-    Table rows;                  ///< of comparisonTable(): rows that differ
-    Json rowsJson, classesJson;  ///< of comparisonJson(): these rows, and the sums of their classes
-    /// Rows that differ by their change; Change::Same has those with other properties only.
+    Table rows;     ///< of comparisonTable(): rows that differ
+    Json rowsJson;  ///< these rows, see rowsJson()
+    std::vector<ClassSums> classes;
+    /// Objects with geometry by their change; 0 for Change::Same, because tiles with equal bytes are not counted.
     std::array<std::size_t, compare::kChangeCount> counts{};
     std::size_t otherProperties = 0;
     bool isComplete = true;  ///< see Comparison::isComplete

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 
 namespace svt::cli {
@@ -65,8 +66,14 @@ std::vector<std::uint32_t> rowsByVolume(const compare::Comparison& comparison) {
     return rows;
 }
 
-std::vector<ClassSums> sumsByClass(const Compared& compared, std::span<const std::uint32_t> rows) {
-    std::vector<ClassSums> sums;
+std::vector<std::uint32_t> allRows(const compare::Comparison& comparison) {
+    std::vector<std::uint32_t> rows(comparison.rows.size());
+    std::iota(rows.begin(), rows.end(), 0U);
+    return rows;
+}
+
+std::vector<ClassSums> sumsByClass(const Compared& compared, std::span<const std::uint32_t> rows,
+                                   std::vector<ClassSums> sums) {
     for (const std::uint32_t r : rows) {
         const ComparisonRow& row = compared.comparison.rows[r];
         if (!row.hasGeometry || row.change == Change::Same) continue;

@@ -69,7 +69,11 @@ struct ClassSums {
 };
 /// The sums of rows whose space changed, in the order of the classes' first rows.
 /// \param rows  numbers of Comparison::rows
-[[nodiscard]] std::vector<ClassSums> sumsByClass(const Compared& compared, std::span<const std::uint32_t> rows);
+/// \param sums  of other comparisons, to which these are added
+[[nodiscard]] std::vector<ClassSums> sumsByClass(const Compared& compared, std::span<const std::uint32_t> rows,
+                                                 std::vector<ClassSums> sums = {});
+/// The numbers of all rows.
+[[nodiscard]] std::vector<std::uint32_t> allRows(const compare::Comparison& comparison);
 
 /// Rounds to a tenth of a micrometre or the like, so that no report has digits from rounding errors.
 [[nodiscard]] double withoutRounding(double value) noexcept;

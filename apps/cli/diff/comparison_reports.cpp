@@ -93,26 +93,35 @@ Table comparisonTable(const Compared& compared, bool hasAll, std::size_t mostPro
     return table;
 }
 
-Json comparisonJson(const Compared& compared) {
+Json rowsJson(const Compared& compared, bool hasAll) {
     const StateFeatures was(compared.was), is(compared.is);
+    Json rows = Json::array();
+    for (const ComparisonRow& row : compared.comparison.rows)
+        if (hasAll || row.isDifferent()) rows.push_back(rowJson(row, was, is));
+    return rows;
+}
+
+Json classesJson(std::span<const ClassSums> classes) {
+    Json json = Json::array();
+    for (const ClassSums& sums : classes)
+        json.push_back({{"class", sums.className},
+                        {"objects", sums.objects},
+                        {"added", jsonOf(sums.added)},
+                        {"removed", jsonOf(sums.removed)},
+                        {"bound", jsonOf(sums.bound)},
+                        {"withoutVolume", sums.unknown}});
+    return json;
+}
+
+Json comparisonJson(const Compared& compared) {
     Json json;
-    Json& rows = json["rows"] = Json::array();
-    for (const ComparisonRow& row : compared.comparison.rows) rows.push_back(rowJson(row, was, is));
+    json["rows"] = rowsJson(compared, true);
     Json& summary = json["summary"];
     summary["different"] = compared.comparison.isDifferent();
     for (std::size_t change = 0; change < compare::kChangeCount; ++change)
         summary["changes"][std::string(nameOf(static_cast<Change>(change)))] = compared.comparison.counts[change];
     summary["otherProperties"] = compared.comparison.otherProperties;
-    Json& classes = summary["classes"] = Json::array();
-    std::vector<std::uint32_t> all(compared.comparison.rows.size());
-    for (std::uint32_t r = 0; r < all.size(); ++r) all[r] = r;
-    for (const ClassSums& sums : sumsByClass(compared, all))
-        classes.push_back({{"class", sums.className},
-                           {"objects", sums.objects},
-                           {"added", jsonOf(sums.added)},
-                           {"removed", jsonOf(sums.removed)},
-                           {"bound", jsonOf(sums.bound)},
-                           {"withoutVolume", sums.unknown}});
+    summary["classes"] = classesJson(sumsByClass(compared, allRows(compared.comparison)));
     summary["complete"] = compared.comparison.isComplete;
     return json;
 }

@@ -6,6 +6,8 @@
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/table.hpp>
 
+#include <span>
+
 namespace svt::cli {
 
 /// One row per object and per group.
@@ -15,5 +17,9 @@ namespace svt::cli {
 
 /// rows and summary, see docs/user/json.md.
 [[nodiscard]] Json comparisonJson(const Compared& compared);
+
+/// Parts of this JSON: the rows, and the sums of the classes. \param hasAll  false: only rows that differ
+[[nodiscard]] Json rowsJson(const Compared& compared, bool hasAll);
+[[nodiscard]] Json classesJson(std::span<const ClassSums> classes);
 
 }  // namespace svt::cli

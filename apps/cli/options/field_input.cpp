@@ -1,9 +1,13 @@
 #include <apps/cli/options/field_input.hpp>
+#include <apps/cli/output/messages.hpp>
 
 #include <svt/fields/svt_fields.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
+
+#include <string>
+#include <vector>
 
 namespace svt::cli {
 
@@ -15,6 +19,15 @@ Result<fields::Field> readFieldOf(const std::filesystem::path& input, const std:
                         "with svt field add",
                         input.string()));
     return fields::readField(input, name);
+}
+
+void noteLostFields(const std::filesystem::path& input) {
+    if (!volume::isSvtFile(input)) return;
+    const auto heads = fields::readFieldHeads(input);
+    if (!heads || heads->empty()) return;
+    std::vector<std::string> names;
+    for (const fields::FieldHead& head : *heads) names.push_back(head.name);
+    note(fmt::format("the output does not have the fields of the input: {}", fmt::join(names, ", ")));
 }
 
 }  // namespace svt::cli

@@ -14,4 +14,7 @@ namespace svt::cli {
 /// \return the field, or BadArgument if the input is not a `.svt`, or an error of fields::readField()
 [[nodiscard]] Result<fields::Field> readFieldOf(const std::filesystem::path& input, const std::string& name);
 
+/// Prints a note with the fields of a `.svt`, which a volume made from it does not have. Nothing for other inputs.
+void noteLostFields(const std::filesystem::path& input);
+
 }  // namespace svt::cli

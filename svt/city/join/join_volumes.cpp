@@ -300,4 +300,30 @@ Result<volume::SemanticVolume> joinVolumes(std::span<const volume::SemanticVolum
     return result;
 }
 
+volume::VectorParts joinTriangles(std::span<const volume::SemanticVolume> volumes, const volume::Grid& grid) {
+    volume::VectorParts joined;
+    constexpr double kMostUnits = 1 << 30;  // points are 32-bit integers
+    const Vec3i n = grid.dimension();
+    const double extent = std::max({n.x, n.y, n.z}) * grid.spacing().x;
+    for (const volume::SemanticVolume& tile : volumes) joined.unit = std::max(joined.unit, tile.vectors.unit);
+    while (extent > kMostUnits * joined.unit) joined.unit *= 2;
+    std::uint32_t labels = 0;
+    for (const volume::SemanticVolume& tile : volumes) {
+        const auto points = static_cast<std::uint32_t>(joined.points.size());
+        for (std::uint32_t p = 0; p < tile.vectors.points.size(); ++p) {
+            const Vec3d at = tile.vectors.position(p, tile.grid.origin() - grid.origin()) / joined.unit;
+            joined.points.push_back({static_cast<std::int32_t>(std::lround(at.x)),
+                                     static_cast<std::int32_t>(std::lround(at.y)),
+                                     static_cast<std::int32_t>(std::lround(at.z))});
+        }
+        for (volume::VectorParts::Triangle triangle : tile.vectors.triangles) {
+            triangle.label += labels;
+            for (std::uint32_t& corner : triangle.corners) corner += points;
+            joined.triangles.push_back(triangle);
+        }
+        labels += static_cast<std::uint32_t>(tile.labels.labels.size());
+    }
+    return joined;
+}
+
 }  // namespace svt::city

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <span>
@@ -194,31 +193,6 @@ private:
     CityChanges changes_;
 };
 
-// The triangles of tiles whose label tables were appended to each other, with points relative to `origin`.
-volume::VectorParts joinTriangles(const std::vector<volume::SemanticVolume>& tiles, Vec3d origin, double extent) {
-    volume::VectorParts joined;
-    constexpr double kMostUnits = 1 << 30;
-    for (const volume::SemanticVolume& tile : tiles) joined.unit = std::max(joined.unit, tile.vectors.unit);
-    while (extent > kMostUnits * joined.unit) joined.unit *= 2;
-    std::uint32_t labels = 0;
-    for (const volume::SemanticVolume& tile : tiles) {
-        const auto points = static_cast<std::uint32_t>(joined.points.size());
-        for (std::uint32_t p = 0; p < tile.vectors.points.size(); ++p) {
-            const Vec3d at = tile.vectors.position(p, tile.grid.origin() - origin) / joined.unit;
-            joined.points.push_back({static_cast<std::int32_t>(std::lround(at.x)),
-                                     static_cast<std::int32_t>(std::lround(at.y)),
-                                     static_cast<std::int32_t>(std::lround(at.z))});
-        }
-        for (volume::VectorParts::Triangle triangle : tile.vectors.triangles) {
-            triangle.label += labels;
-            for (std::uint32_t& corner : triangle.corners) corner += points;
-            joined.triangles.push_back(triangle);
-        }
-        labels += static_cast<std::uint32_t>(tile.labels.labels.size());
-    }
-    return joined;
-}
-
 Result<volume::SemanticVolume> readState(const City& city, const std::vector<IndexEntry>& entries) {
     if (entries.size() == 1) return city.readWithMeshes(entries.front());
     std::vector<volume::SemanticVolume> tiles;
@@ -227,8 +201,7 @@ Result<volume::SemanticVolume> readState(const City& city, const std::vector<Ind
         tiles.push_back(std::move(*tile));
     }
     SVT_TRY(joined, joinVolumes(tiles));
-    const Vec3d size = toDouble(joined->grid.dimension()) * joined->grid.spacing().x;
-    joined->vectors = joinTriangles(tiles, joined->grid.origin(), std::max({size.x, size.y, size.z}));
+    joined->vectors = joinTriangles(tiles, joined->grid);
     return joined;
 }
 

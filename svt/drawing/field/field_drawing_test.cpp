@@ -1,4 +1,5 @@
 #include <svt/drawing/field_drawing.hpp>
+#include <svt/fields/node_field_test.hpp>
 
 #include <svt/volume/sample_volume_test.hpp>
 
@@ -39,16 +40,7 @@ SemanticVolume twoRooms(const std::array<Vec3d, 3>& axes = volume::test::kWorldA
 
 // valueAt(metres from the corner of the grid, along its axes) at each node of the voxels.
 fields::Field fieldOf(const std::string& medium, const std::function<double(Vec3d)>& valueAt) {
-    fields::Field field;
-    field.head.name = "temperature";
-    field.head.unit = "Cel";
-    field.head.medium = medium;
-    field.head.lattice.size = kSize;
-    for (int k = 0; k < kSize.z; ++k)
-        for (int j = 0; j < kSize.y; ++j)
-            for (int i = 0; i < kSize.x; ++i)
-                field.values.push_back(static_cast<float>(valueAt({kStep * i, kStep * j, kStep * k})));
-    return field;
+    return fields::test::nodeField("temperature", medium, kSize, kStep, valueAt);
 }
 
 SectionDrawing planOf(const SemanticVolume& volume, const char* plane = "z=0.53") {

@@ -1,4 +1,5 @@
 #include <svt/fields/field.hpp>
+#include <svt/fields/node_field_test.hpp>
 #include <svt/illustrate/annotate/field_paint.hpp>
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/image/color.hpp>
@@ -35,16 +36,7 @@ SemanticVolume twoRooms() {
 }
 
 fields::Field fieldOf(const std::string& medium, const std::function<double(Vec3d)>& valueAt) {
-    fields::Field field;
-    field.head.name = "t";
-    field.head.unit = "Cel";
-    field.head.medium = medium;
-    field.head.lattice.size = kSize;
-    for (int k = 0; k < kSize.z; ++k)
-        for (int j = 0; j < kSize.y; ++j)
-            for (int i = 0; i < kSize.x; ++i)
-                field.values.push_back(static_cast<float>(valueAt({kStep * i, kStep * j, kStep * k})));
-    return field;
+    return fields::test::nodeField("t", medium, kSize, kStep, valueAt);
 }
 
 // A plan cut at 1 m, from above.

@@ -31,12 +31,12 @@ public:
 
     void paint() {
         inLayer("Cut", [&] { addComponents(); });
-        if (options_.field.field != nullptr) inLayer("Field", [&] { addBands(); });
+        if (options_.field.isShown()) inLayer("Field", [&] { addBands(); });
         for (const auto kind : {drawing::BeyondKind::Visible, drawing::BeyondKind::Hidden, drawing::BeyondKind::Above})
             addBeyond(kind);
         inLayer("Outlines", [&] { addBorders(); });
         if (!drawing_.doors.empty()) inLayer("Doors", [&] { addDoors(); });
-        if (options_.field.field != nullptr) inLayer("Isolines", [&] { addIsolines(); });
+        if (options_.field.isShown()) inLayer("Isolines", [&] { addIsolines(); });
         if (options_.marks == nullptr)
             inLayer("Names", [&] { addNames(); });
         else

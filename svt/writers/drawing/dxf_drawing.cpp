@@ -138,7 +138,7 @@ private:
                               : "world = origin + u * x + v * y, metres") +
                 (volume_.crsName.empty() ? std::string() : ", CRS " + dxfText(volume_.crsName)),
             "origin " + vectorText(axes.origin, 6), "u " + vectorText(axes.u, 15), "v " + vectorText(axes.v, 15)};
-        if (look_.field != nullptr) {
+        if (look_.isShown()) {
             lines.push_back("field " + dxfText(look_.field->title));
             for (const drawing::FieldBand& band : look_.field->bands)
                 lines.push_back(fmt::format("{}: {:.9g} to {:.9g}, {}", bandLayerOf(band), band.low, band.high,
@@ -177,7 +177,7 @@ private:
             if (component.lineLength > 0) addLines(component, layer);
             if (!component.polygons.empty() && model::isSpace(labelOf(component.label).className)) addName(component);
         }
-        if (look_.field != nullptr) addField();
+        if (look_.isShown()) addField();
         for (const drawing::BeyondLine& line : drawing_.beyond) addBeyond(line);
         for (const drawing::DoorSwing& swing : drawing_.doors) addDoor(swing);
         for (const DimensionMark& mark : dimensions_.marks) addDimension(mark);

@@ -51,7 +51,7 @@ public:
             for (const drawing::DoorSwing::Arc& arc : door.arcs) lines.push_back(drawing::pointsOf(arc));
             addFeature(door.label, "", "\"swing\":true", multiLine(lines));
         }
-        if (look_.field != nullptr) addField();
+        if (look_.isShown()) addField();
         return std::move(json_ += "\n]}\n");
     }
 

@@ -35,15 +35,15 @@ public:
     std::string write() {
         begin();
         addComponents();
-        if (look_.field != nullptr) addBands();
+        if (look_.isShown()) addBands();
         addBeyond();
         addBorders();
         addLines();
         addDoors();
-        if (look_.field != nullptr) addIsolines();
+        if (look_.isShown()) addIsolines();
         addNames();
         addDimensions();
-        if (look_.field != nullptr) addLegend();
+        if (look_.isShown()) addLegend();
         addTitle();
         svg_ += "</svg>\n";
         return std::move(svg_);
@@ -99,7 +99,7 @@ private:
                 ".beyond { fill: none; stroke: #000; stroke-width: 0.18; stroke-linecap: round }\n"
                 ".hidden { stroke-linecap: butt; stroke-dasharray: 2.16 0.54 }\n"
                 ".above { stroke-linecap: butt; stroke-dasharray: 4.32 0.54 0.18 0.54 0.18 0.54 }\n";
-        if (look_.field != nullptr)
+        if (look_.isShown())
             svg_ +=
                 ".isoline { fill: none; stroke: #000; stroke-width: 0.18; stroke-linecap: round; stroke-linejoin: "
                 "round }\n"
@@ -407,7 +407,7 @@ private:
 Result<std::string> makeSvg(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                             const SvgOptions& options) {
     SVT_TRY(page, makeDrawingPage(drawing, options.scale));
-    if (options.field.field != nullptr) addField(*options.field.field, *page);
+    if (options.field.isShown()) addField(*options.field.field, *page);
     return SvgWriter(drawing, volume, *page, options.field).write();
 }
 

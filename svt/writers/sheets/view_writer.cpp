@@ -61,7 +61,7 @@ Result<PdfFile> makeSectionPdf(const drawing::SectionDrawing& drawing, const vol
                                double scale, const FieldLook& look) {
     constexpr double kLongest = 5080;  // 14,400 points: ISO 32000-1, annex C
     SVT_TRY(page, makeDrawingPage(drawing, scale));
-    if (look.field != nullptr) addField(*look.field, *page);
+    if (look.isShown()) addField(*look.field, *page);
     if (page->width > kLongest || page->height > kLongest)
         return Error(Code::BadArgument,
                      fmt::format("at 1:{} the page has {:.1f} x {:.1f} m; PDF allows 5.08 m; give a smaller scale",
@@ -72,7 +72,7 @@ Result<PdfFile> makeSectionPdf(const drawing::SectionDrawing& drawing, const vol
     PaintOptions options;
     options.field = look;
     paintDrawing(drawing, volume, {{page->left, below}, page->low, page->millimetres}, **canvas, options);
-    if (look.field != nullptr) addLegend(look, *page, **canvas);
+    if (look.isShown()) addLegend(look, *page, **canvas);
     (*canvas)->beginLayer("Title");
     addTitle(drawing, volume, *page, **canvas);
     (*canvas)->endLayer();

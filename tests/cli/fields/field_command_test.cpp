@@ -51,6 +51,15 @@ TEST_F(FieldCommand, ListsFields) {
     EXPECT_EQ(runSvtForJson(folder.path(), {"field-list", "plain.svt", "--json"}), json({{"fields", json::array()}}));
 }
 
+TEST_F(FieldCommand, AShellNamesTheFieldsThatItLoses) {
+    const std::string lost = "the output does not have the fields of the input: warm";
+    const CommandResult shell = runSvt(folder.path(), {"shell", "house.svt", "-o", "shell.svt"});
+    EXPECT_EQ(shell.exitCode, 0) << shell.toString();
+    EXPECT_NE(shell.err.find(lost), std::string::npos) << shell.toString();
+    const CommandResult without = runSvt(folder.path(), {"shell", "plain.svt", "-o", "other.svt"});
+    EXPECT_EQ(without.err.find("fields of the input"), std::string::npos) << without.toString();
+}
+
 TEST_F(FieldCommand, StatisticsOfRooms) {
     const json all = rows({"field-stats", "warm", "--by", "class=BuildingRoom", "--over", "23"});
     json living, kitchen, other;
