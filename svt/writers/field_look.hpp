@@ -9,7 +9,7 @@
 namespace svt::writers {
 
 #ifdef __EMSCRIPTEN__
-/// Whether drawings can show fields. The module of the page leaves out this code to stay small.
+/// Whether drawings contain fields. The module of the page leaves out this code to stay small.
 inline constexpr bool kDrawsFields = false;
 #else
 inline constexpr bool kDrawsFields = true;
