@@ -3,7 +3,7 @@
 /// Fields from the files of other programs, placed in the index space of a volume.
 ///
 ///     | files                          | fields
-///     | .smv with .sf, .s3d, .bf, _devc.csv | results of FDS
+///     | .smv with .sf, .s3d, _devc.csv | results of FDS
 ///     | .csv with a table of places    | values of sensors
 ///     | .json of OGC SensorThings      | values of sensors
 ///     | .vti, .vtr, .pvd, .nrrd        | lattices of ParaView and others

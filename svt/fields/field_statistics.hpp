@@ -51,7 +51,7 @@ struct FieldStatistics {
 };
 
 /// Cost: one sample per voxel of a label and time. Memory: 64 bytes per label and time.
-/// \return the sums; or as FieldSampler::make(); BadArgument for a component that the field has not
+/// \return the sums; or as FieldSampler::make(); BadArgument for a component that does not exist
 [[nodiscard]] Result<FieldStatistics> sumField(const Field& field, const volume::SemanticVolume& volume,
                                                const StatisticsOptions& options = {});
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Steady heat conduction through the components of a volume: finite volumes on the volume's grid, with resistances from one
-/// ray per face through the model's planes.
+/// Steady heat conduction through the components of a volume: finite volumes on the volume's grid (ISO 10211), with
+/// resistances along one ray per row of voxels, through the model's triangles or planes.
 ///
 ///     outside |  wall            | room
 ///       Te    o---.---.---.---.--o   Ti     . unknown temperatures   o exact faces
@@ -35,8 +35,8 @@ struct ThermalRule {
     friend bool operator==(const ThermalRule&, const ThermalRule&) = default;
 };
 
-/// Parses CSV with the columns `query`, `conductivity`, `density` and `specificHeat` (the last two are optional), named in
-/// the first line in any order. A field in double quotes may contain commas. Lines that begin with `#` are comments.
+/// Parses CSV (record::CsvReader) with the columns `query`, `conductivity`, `density` and `specificHeat` (the last two are
+/// optional), named in the first line in any order.
 /// \param file  for messages
 /// \return the rules in order, or BadValue with the line
 [[nodiscard]] Result<std::vector<ThermalRule>> parseThermalRules(std::string_view text, const std::string& file);

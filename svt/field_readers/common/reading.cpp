@@ -151,4 +151,10 @@ void setPrecision(fields::Field& field, const Reading& reading, Assumptions& ass
                         fmt::format("values are rounded to multiples of {} {}", field.head.precision, field.head.unit));
 }
 
+bool isMissingCell(std::string_view cell) noexcept {
+    for (const std::string_view missing : {"", "nan", "na", "n/a", "null", "none", "-"})
+        if (equalsIgnoringCase(cell, missing)) return true;
+    return false;
+}
+
 }  // namespace svt::field_readers

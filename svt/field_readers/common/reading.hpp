@@ -48,6 +48,9 @@ private:
 /// An error of a file.
 [[nodiscard]] Error badField(std::string message, const std::filesystem::path& file, std::uint64_t line = 0);
 
+/// Whether a cell of a table stands for a missing value: empty, NaN, NA, N/A, null, none, or a dash, whatever its case.
+[[nodiscard]] bool isMissingCell(std::string_view cell) noexcept;
+
 /// A name that FieldHead allows: "SOOT DENSITY" becomes "soot_density".
 /// \param otherwise  for a text without letters
 [[nodiscard]] std::string fieldName(std::string_view text, std::string_view otherwise);

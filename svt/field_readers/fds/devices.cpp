@@ -2,7 +2,7 @@
 
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
-#include <svt/field_readers/common/csv_table.hpp>
+#include <svt/record/csv_reader.hpp>
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ struct DeviceTable {
 };
 
 Result<DeviceTable> readDeviceTable(std::string_view text, const std::filesystem::path& path, const Reading& reading) {
-    CsvReader reader(text);
+    record::CsvReader reader(text);
     DeviceTable table;
     if (!reader.next(table.units) || !reader.next(table.names) || table.units.size() != table.names.size())
         return badField("a line of units and a line of as many names are expected", path);

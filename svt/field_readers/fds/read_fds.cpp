@@ -56,7 +56,7 @@ private:
         return isAskedFor(reading_.options, std::array<std::string_view, 3>{file.quantity, file.shortName, name});
     }
 
-    // A quantity that the case has not is a mistake of the user.
+    // A quantity that the case does not have is a mistake of the user.
     [[nodiscard]] Result<void> checkQuantity() const {
         std::set<std::string> known;
         for (const SmvFile& file : fds_.files) known.insert(file.quantity);

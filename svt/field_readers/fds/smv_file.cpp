@@ -70,7 +70,7 @@ private:
 
     Error bad(std::string message, std::size_t line) const { return badField(std::move(message), path_, line + 1); }
 
-    // The next line; nothing at the end of the file, where a run that goes on has not written more.
+    // The next line; nothing at the end of the file: a run that goes on may still write more.
     std::optional<std::string_view> next() {
         if (at_ >= lines_.size()) {
             case_.isCut = true;

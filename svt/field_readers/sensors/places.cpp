@@ -3,7 +3,7 @@
 #include <svt/analyze/selection.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
-#include <svt/field_readers/common/csv_table.hpp>
+#include <svt/record/csv_reader.hpp>
 
 #include <fmt/format.h>
 
@@ -108,8 +108,8 @@ std::map<std::uint32_t, Vec3d> roomPlaces(const std::vector<std::uint32_t>& room
 }
 
 // A row of the table; its room, if it has no coordinates, is found later.
-Result<void> addPlaceRow(const std::vector<std::string>& cells, const PlaceColumns& columns, const CsvReader& reader,
-                         const std::filesystem::path& path, Places& places) {
+Result<void> addPlaceRow(const std::vector<std::string>& cells, const PlaceColumns& columns,
+                         const record::CsvReader& reader, const std::filesystem::path& path, Places& places) {
     const auto cell = [&](std::optional<std::size_t> column) {
         return column && *column < cells.size() ? std::string_view(cells[*column]) : std::string_view();
     };
@@ -140,7 +140,7 @@ Result<void> addPlaceRow(const std::vector<std::string>& cells, const PlaceColum
 Result<Places> readPlaces(const Reading& reading) {
     const std::filesystem::path& path = reading.options.places;
     SVT_TRY(bytes, FileBytes::read(path, kMaxPlacesTable));
-    CsvReader reader(bytes->text());
+    record::CsvReader reader(bytes->text());
     std::vector<std::string> cells;
     const bool hasHeader = reader.next(cells);
     const PlaceColumns columns = hasHeader ? columnsOf(cells) : PlaceColumns();

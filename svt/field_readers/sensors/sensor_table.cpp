@@ -1,8 +1,8 @@
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
-#include <svt/field_readers/common/csv_table.hpp>
 #include <svt/field_readers/sensors/places.hpp>
 #include <svt/field_readers/sensors/sensor_series.hpp>
+#include <svt/record/csv_reader.hpp>
 
 #include <fmt/format.h>
 
@@ -155,7 +155,7 @@ private:
     }
 
     Reading& reading_;
-    CsvReader csv_;
+    record::CsvReader csv_;
     const std::map<std::string, SensorPlace, std::less<>>& places_;
     std::vector<std::string> cells_;
     bool isLong_ = false;

@@ -1,6 +1,5 @@
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
-#include <svt/field_readers/common/csv_table.hpp>
 #include <svt/field_readers/sensors/places.hpp>
 #include <svt/field_readers/sensors/sensor_series.hpp>
 

@@ -293,8 +293,12 @@ TEST(ThermalRules, AreReadFromCsv) {
     ASSERT_EQ(rules->size(), 2u);
     EXPECT_EQ((*rules)[0], (ThermalRule{"material~\"a, b\"", 0.5, 0, 0}));
     EXPECT_EQ((*rules)[1], (ThermalRule{"class=Slab", 2.3, 2400, 0}));
-    for (const char* bad : {"", "query\n", "query,lambda\n", "query,conductivity\na=b,-1\n",
-                            "query,conductivity\na=b,x\n", "query,conductivity\n,1\n"}) {
+    const auto german = parseThermalRules("query;conductivity\nclass=Slab;2,3\n", "t.csv");
+    ASSERT_TRUE(german) << german.error().toString();
+    EXPECT_EQ((*german)[0].conductivity, 2.3);
+    for (const char* bad :
+         {"", "query\n", "query,lambda\n", "query,conductivity\na=b,-1\n", "query,conductivity\na=b,x\n",
+          "query,conductivity\n,1\n", "query,conductivity\n\"a=b,1\n"}) {
         const auto result = parseThermalRules(bad, "t.csv");
         ASSERT_FALSE(result) << bad;
         EXPECT_EQ(result.error().code(), Code::BadValue);

@@ -1,6 +1,7 @@
 #include <svt/simulate/heat.hpp>
 
 #include <svt/core/text.hpp>
+#include <svt/record/csv_reader.hpp>
 
 #include <fmt/format.h>
 
@@ -11,29 +12,6 @@ namespace svt::simulate {
 namespace {
 
 constexpr std::array<std::string_view, 4> kColumns{"query", "conductivity", "density", "specificHeat"};
-
-// The fields of a line of CSV; quotes around a field are removed, doubled ones within it are single.
-std::vector<std::string> fieldsOf(std::string_view line) {
-    std::vector<std::string> fields(1);
-    bool isQuoted = false;
-    for (std::size_t n = 0; n < line.size(); ++n) {
-        const char c = line[n];
-        if (c == '"') {
-            if (isQuoted && n + 1 < line.size() && line[n + 1] == '"') {
-                fields.back() += c;
-                ++n;
-            } else {
-                isQuoted = !isQuoted;
-            }
-        } else if (c == ',' && !isQuoted) {
-            fields.emplace_back();
-        } else {
-            fields.back() += c;
-        }
-    }
-    for (std::string& field : fields) field = std::string(withoutBlanks(field));
-    return fields;
-}
 
 class RuleParser {
 public:
@@ -54,7 +32,8 @@ public:
         return {};
     }
 
-    Result<ThermalRule> readRule(const std::vector<std::string>& fields, std::uint64_t line) const {
+    Result<ThermalRule> readRule(const std::vector<std::string>& fields, const record::CsvReader& reader) const {
+        const std::uint64_t line = reader.line();
         ThermalRule rule;
         rule.query = text(fields, 0);
         if (rule.query.empty()) return bad(line, "the query is empty; write one such as class=Slab");
@@ -62,7 +41,7 @@ public:
         for (std::size_t v = 0; v < values.size(); ++v) {
             const std::string value = text(fields, v + 1);
             if (value.empty() && v > 0) continue;
-            const auto number = parseNumber(value);
+            const auto number = reader.number(value);
             if (!number || *number < 0 || *number > 1e5)
                 return bad(line, fmt::format("'{}' in the column {}; expected a number from 0 to 100000", value,
                                              kColumns[v + 1]));
@@ -87,21 +66,22 @@ private:
 }  // namespace
 
 Result<std::vector<ThermalRule>> parseThermalRules(std::string_view text, const std::string& file) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     std::vector<ThermalRule> rules;
     RuleParser parser(file);
+    record::CsvReader reader(text);
+    std::vector<std::string> cells;
     bool hasHead = false;
-    for (std::uint64_t number = 1; !text.empty(); ++number) {
-        const std::string_view line = text.substr(0, text.find('\n'));
-        text.remove_prefix(std::min(line.size() + 1, text.size()));
-        const std::string_view content = withoutBlanks(line);
-        if (content.empty() || content.starts_with('#')) continue;
+    while (reader.next(cells)) {
+        if (reader.isQuoteOpen())
+            return Error(Code::BadValue, "thermal materials: a quote that is opened here is never closed",
+                         {file, reader.line(), 0, {}});
+        if (std::all_of(cells.begin(), cells.end(), [](const std::string& cell) { return cell.empty(); })) continue;
         if (!hasHead) {
-            SVT_DO(parser.readHead(fieldsOf(content), number));
+            SVT_DO(parser.readHead(cells, reader.line()));
             hasHead = true;
             continue;
         }
-        SVT_TRY(rule, parser.readRule(fieldsOf(content), number));
+        SVT_TRY(rule, parser.readRule(cells, reader));
         rules.push_back(std::move(*rule));
     }
     if (!hasHead)

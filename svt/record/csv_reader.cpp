@@ -1,10 +1,10 @@
-#include <svt/field_readers/common/csv_table.hpp>
+#include <svt/record/csv_reader.hpp>
 
 #include <svt/core/text.hpp>
 
 #include <algorithm>
 
-namespace svt::field_readers {
+namespace svt::record {
 
 CsvReader::CsvReader(std::string_view text) : text_(text) {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -77,10 +77,4 @@ std::optional<double> CsvReader::number(std::string_view cell) const {
     return parseNumber(text);
 }
 
-bool isMissingCell(std::string_view cell) noexcept {
-    for (const std::string_view missing : {"", "nan", "na", "n/a", "null", "none", "-"})
-        if (equalsIgnoringCase(cell, missing)) return true;
-    return false;
-}
-
-}  // namespace svt::field_readers
+}  // namespace svt::record

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace svt::field_readers {
+namespace svt::record {
 
 /// Reads rows from a text, which must outlive the reader. Cells may stand in double quotes and then hold separators, line
 /// breaks and doubled quotes. Blanks around other cells do not count; neither do empty lines and lines that begin with #.
@@ -39,7 +39,4 @@ private:
     bool isWhole_ = true, isQuoteOpen_ = false;
 };
 
-/// Whether a cell stands for a missing value: empty, NaN, NA, N/A, null, none, or a dash, whatever its case.
-[[nodiscard]] bool isMissingCell(std::string_view cell) noexcept;
-
-}  // namespace svt::field_readers
+}  // namespace svt::record
