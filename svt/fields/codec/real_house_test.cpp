@@ -51,7 +51,7 @@ Field temperatureOf(const volume::SemanticVolume& volume) {
     return field;
 }
 
-TEST(RealHouse, aTemperatureTakesLessThanAMegabyteAndASecond) {
+TEST(RealHouse, ATemperatureTakesLessThanAMegabyteAndASecond) {
     SVT_NEEDS_DATA(file, "fzk_haus.ifc");
     pipeline::BuildOptions options;
     options.spacing = Vec3d{0.05, 0.05, 0.05};

@@ -87,7 +87,7 @@ struct Files {
     }
 };
 
-TEST(SvtFields, fieldsReadBackWithinTheirPrecision) {
+TEST(SvtFields, FieldsReadBackWithinTheirPrecision) {
     const Files files;
     const std::vector<Field> fields{smoothGrid(), pointField(), labelField()};
     files.write(fields);
@@ -101,7 +101,7 @@ TEST(SvtFields, fieldsReadBackWithinTheirPrecision) {
     EXPECT_EQ(worstDifference(*readField(files.with, "heating"), labelField()), 0) << "multiples are kept";
 }
 
-TEST(SvtFields, valuesOfInfinitePrecisionAndVectorsAndUnevenLatticesAreKept) {
+TEST(SvtFields, ValuesOfInfinitePrecisionAndVectorsAndUnevenLatticesAreKept) {
     const Files files;
     Field field = smoothGrid("flow", {70, 3, 4});
     field.head.precision = 0;
@@ -120,7 +120,7 @@ TEST(SvtFields, valuesOfInfinitePrecisionAndVectorsAndUnevenLatticesAreKept) {
     EXPECT_EQ(worstDifference(*read, field), 0);
 }
 
-TEST(SvtFields, olderReadersSeeTheSameVolume) {
+TEST(SvtFields, OlderReadersSeeTheSameVolume) {
     const Files files;
     files.write(std::vector{smoothGrid(), pointField(), labelField()});
     const auto volume = volume::readSvt(files.with);
@@ -128,7 +128,7 @@ TEST(SvtFields, olderReadersSeeTheSameVolume) {
     EXPECT_TRUE(isSame(*volume, sampleVolume()));
 }
 
-TEST(SvtFields, otherEntriesKeepTheirBytesAndRemovingAllRestoresTheFile) {
+TEST(SvtFields, OtherEntriesKeepTheirBytesAndRemovingAllRestoresTheFile) {
     const Files files;
     files.write(std::vector{smoothGrid(), labelField()});
     const std::string before = readText(files.plain), after = readText(files.with);
@@ -139,7 +139,7 @@ TEST(SvtFields, otherEntriesKeepTheirBytesAndRemovingAllRestoresTheFile) {
     EXPECT_EQ(readText(files.with), before);
 }
 
-TEST(SvtFields, aFieldWithTheSameNameIsReplacedAndOthersStay) {
+TEST(SvtFields, AFieldWithTheSameNameIsReplacedAndOthersStay) {
     const Files files;
     files.write(std::vector{smoothGrid(), labelField()});
     Field next = smoothGrid();
@@ -152,7 +152,7 @@ TEST(SvtFields, aFieldWithTheSameNameIsReplacedAndOthersStay) {
     EXPECT_EQ((*heads)[0].name, "temperature") << "keeps its place";
 }
 
-TEST(SvtFields, bytesDoNotDependOnTheThreads) {
+TEST(SvtFields, BytesDoNotDependOnTheThreads) {
     const Files files;
     Field many = smoothGrid("many", {20, 20, 20});
     const std::size_t perTime = placeCount(many.head, 0);
@@ -169,7 +169,7 @@ TEST(SvtFields, bytesDoNotDependOnTheThreads) {
               0);
 }
 
-TEST(SvtFields, aBlockIsReadWithoutTheRestOfTheFile) {
+TEST(SvtFields, ABlockIsReadWithoutTheRestOfTheFile) {
     const Files files;
     Field field = smoothGrid();
     field.head.precision = 0.0005;
@@ -199,7 +199,7 @@ TEST(SvtFields, aBlockIsReadWithoutTheRestOfTheFile) {
     EXPECT_FALSE(blocks->read(0, 3, {0, 0, 0}));
 }
 
-TEST(SvtFields, levelsAreMeansAndBlocksOfOneValueTakeNoBytes) {
+TEST(SvtFields, LevelsAreMeansAndBlocksOfOneValueTakeNoBytes) {
     const Files files;
     Field field = smoothGrid("constant", {130, 8, 8});
     field.head.times = {0};
@@ -222,7 +222,7 @@ TEST(SvtFields, levelsAreMeansAndBlocksOfOneValueTakeNoBytes) {
     EXPECT_LT((*listed)[0].bytes, 400u);
 }
 
-TEST(SvtFields, unknownNamesAndInvalidFieldsAreErrors) {
+TEST(SvtFields, UnknownNamesAndInvalidFieldsAreErrors) {
     const Files files;
     EXPECT_EQ(readField(files.plain, "t").error().code(), Code::UnknownField);
     EXPECT_TRUE(readFieldHeads(files.plain)->empty());
@@ -256,7 +256,7 @@ TEST(SvtFields, unknownNamesAndInvalidFieldsAreErrors) {
               Code::BadField);
 }
 
-TEST(SvtFields, precisionForIsOneTwoOrFiveTimesAPowerOfTen) {
+TEST(SvtFields, PrecisionForIsOneTwoOrFiveTimesAPowerOfTen) {
     EXPECT_DOUBLE_EQ(precisionFor(0, 65.534), 0.001);
     EXPECT_DOUBLE_EQ(precisionFor(0, 65.6), 0.002);
     EXPECT_DOUBLE_EQ(precisionFor(-20, 60), 0.002);
@@ -294,7 +294,7 @@ std::vector<Field> smallFields() {
     return {grid, pointField(), labelField()};
 }
 
-TEST(SvtFields, everyDamagedByteOfIndexBlocksAndTextIsAnErrorOrHarmless) {
+TEST(SvtFields, EveryDamagedByteOfIndexBlocksAndTextIsAnErrorOrHarmless) {
     const Files files;
     files.write(smallFields());
     for (const std::string entry : {"fields/t/index", "fields/t/blocks"}) {
@@ -315,7 +315,7 @@ TEST(SvtFields, everyDamagedByteOfIndexBlocksAndTextIsAnErrorOrHarmless) {
         (void)readAllWith(files, "fields.json", [&](std::string& text) { text[b] = static_cast<char>(text[b] ^ 1); });
 }
 
-TEST(SvtFields, everyFlippedByteOfTheFileIsAnErrorOrHarmless) {
+TEST(SvtFields, EveryFlippedByteOfTheFileIsAnErrorOrHarmless) {
     const Files files;
     files.write(smallFields());
     const std::string text = readText(files.with);
@@ -338,7 +338,7 @@ TEST(SvtFields, everyFlippedByteOfTheFileIsAnErrorOrHarmless) {
     EXPECT_GT(errors, (text.size() - first) / 3);
 }
 
-TEST(SvtFields, hostileTextsAreErrors) {
+TEST(SvtFields, HostileTextsAreErrors) {
     const Files files;
     files.write(smallFields());
     const auto codeOf = [&](const std::string& json) {

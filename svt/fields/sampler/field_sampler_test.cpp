@@ -101,25 +101,25 @@ void expectNoLeak(const SemanticVolume& volume, const Lattice& lattice, const st
     EXPECT_GT(inRoom, samples / 2);
 }
 
-TEST(FieldSampler, valuesDoNotCrossAWallOfOneVoxel) {
+TEST(FieldSampler, ValuesDoNotCrossAWallOfOneVoxel) {
     const SemanticVolume volume = twoRooms();
     expectNoLeak(volume, {kSize, {0, 0, 0}, {1, 1, 1}, {}}, "air", 1000000);
     expectNoLeak(volume, {kSize, {0, 0, 0}, {1, 1, 1}, {}}, "all", 1000000);
 }
 
-TEST(FieldSampler, valuesDoNotCrossAWallThinnerThanAStep) {
+TEST(FieldSampler, ValuesDoNotCrossAWallThinnerThanAStep) {
     const SemanticVolume volume = twoRooms();
     expectNoLeak(volume, {{14, 8, 5}, {0, 0, 0}, {3, 3, 3}, {}}, "air", 200000);
     expectNoLeak(volume, {{8, 4, 4}, {1.5, 2.5, 1.5}, {5.3, 5, 3.1}, {}}, "air", 200000);
 }
 
-TEST(FieldSampler, valuesDoNotCrossAWallOnFineAndShiftedLattices) {
+TEST(FieldSampler, ValuesDoNotCrossAWallOnFineAndShiftedLattices) {
     const SemanticVolume volume = twoRooms();
     expectNoLeak(volume, {{80, 40, 24}, {-0.25, -0.25, -0.25}, {0.5, 0.5, 0.5}, {}}, "air", 200000);
     expectNoLeak(volume, {{41, 21, 13}, {-0.3, -0.3, -0.3}, {1, 1, 1}, {}}, "air", 200000);
 }
 
-TEST(FieldSampler, aLinearFieldIsExactInsideAMedium) {
+TEST(FieldSampler, ALinearFieldIsExactInsideAMedium) {
     const SemanticVolume volume = twoRooms();
     const auto linear = [](Vec3d p) { return 0.25 * p.x - 0.5 * p.y + 0.125 * p.z + 1; };
     const Lattice regular{{42, 22, 14}, {-1, -1, -1}, {1, 1, 1}, {}}, coarse{{8, 5, 4}, {0, 0, 0}, {6, 5, 4}, {}};
@@ -160,7 +160,7 @@ TEST(FieldSampler, aLinearFieldIsExactInsideAMedium) {
     EXPECT_LT(worst, 1e-6);
 }
 
-TEST(FieldSampler, aCellWithoutReachedNodeTakesTheNearestNodeOfItsMedium) {
+TEST(FieldSampler, ACellWithoutReachedNodeTakesTheNearestNodeOfItsMedium) {
     const SemanticVolume volume = twoRooms();
     // The nodes at x = 9 and 29 only; the corner of the west room at x = 18 has its nearest node at 9.
     Field field = gridField({{4, 2, 2}, {-11, 5, 3}, {20, 8, 4}, {}}, "air");
@@ -178,7 +178,7 @@ TEST(FieldSampler, aCellWithoutReachedNodeTakesTheNearestNodeOfItsMedium) {
     EXPECT_TRUE(std::isnan(ofFine.at({1, 9, 5}))) << "farther than two cells";
 }
 
-TEST(FieldSampler, aNicheWithoutNodeTakesTheNodeThatItsAirLeadsTo) {
+TEST(FieldSampler, ANicheWithoutNodeTakesTheNodeThatItsAirLeadsTo) {
     SemanticVolume volume = emptyVolume(kSize, {0.1, 0.1, 0.1});
     addObject(volume, "wall", "Wall");
     addObject(volume, "room", "BuildingRoom");
@@ -190,7 +190,7 @@ TEST(FieldSampler, aNicheWithoutNodeTakesTheNodeThatItsAirLeadsTo) {
     EXPECT_TRUE(std::isnan(sampler.at({25, 10, 6})));
 }
 
-TEST(FieldSampler, placesOutsideOfTheLatticeAndNoPlacesAreMissing) {
+TEST(FieldSampler, PlacesOutsideOfTheLatticeAndNoPlacesAreMissing) {
     const SemanticVolume volume = twoRooms();
     Field field = gridField({{5, 5, 5}, {2, 2, 2}, {1, 1, 1}, {}}, "all");
     fill(field, [](Vec3d p) { return p.y; });
@@ -205,7 +205,7 @@ TEST(FieldSampler, placesOutsideOfTheLatticeAndNoPlacesAreMissing) {
     EXPECT_EQ(sampler.range(), std::pair(2.0f, 6.0f));
 }
 
-TEST(FieldSampler, timesAreInterpolated) {
+TEST(FieldSampler, TimesAreInterpolated) {
     const SemanticVolume volume = twoRooms();
     Field field = gridField({{2, 2, 2}, {2, 2, 2}, {1, 1, 1}, {}}, "all");
     field.head.times = {0, 10, 40};
@@ -220,7 +220,7 @@ TEST(FieldSampler, timesAreInterpolated) {
     EXPECT_TRUE(std::isnan(sampler.atSeconds({2, 2, 2}, std::nan(""))));
 }
 
-TEST(FieldSampler, labelsGiveTheValueOfTheComponentOrItsAncestor) {
+TEST(FieldSampler, LabelsGiveTheValueOfTheComponentOrItsAncestor) {
     SemanticVolume volume = emptyVolume(kSize, {0.1, 0.1, 0.1});
     volume::test::addGroup(volume, "building", "Building");
     addObject(volume, "room", "BuildingRoom", 0);
@@ -238,7 +238,7 @@ TEST(FieldSampler, labelsGiveTheValueOfTheComponentOrItsAncestor) {
     EXPECT_TRUE(std::isnan(sampler.at({-30, 8, 8})));
 }
 
-TEST(FieldSampler, aPointStandsForItsRoom) {
+TEST(FieldSampler, APointStandsForItsRoom) {
     const SemanticVolume volume = twoRooms();
     Field field;
     field.head.name = "co2";
@@ -254,7 +254,7 @@ TEST(FieldSampler, aPointStandsForItsRoom) {
     EXPECT_TRUE(std::isnan(sampler.at({19, 9, 5}))) << "in the wall";
 }
 
-TEST(FieldSampler, mediumOfKnowsAirSolidAndQueries) {
+TEST(FieldSampler, MediumOfKnowsAirSolidAndQueries) {
     const SemanticVolume volume = twoRooms();
     FieldHead head;
     const auto of = [&](std::string medium) {
@@ -271,7 +271,7 @@ TEST(FieldSampler, mediumOfKnowsAirSolidAndQueries) {
     EXPECT_EQ(mediumOf(head, volume).error().code(), Code::NothingSelected);
 }
 
-TEST(FieldSampler, aFieldWithTheWrongNumberOfValuesIsRejected) {
+TEST(FieldSampler, AFieldWithTheWrongNumberOfValuesIsRejected) {
     const SemanticVolume volume = twoRooms();
     Field field = gridField({{5, 5, 5}, {2, 2, 2}, {1, 1, 1}, {}}, "all");
     field.values.pop_back();
@@ -280,13 +280,13 @@ TEST(FieldSampler, aFieldWithTheWrongNumberOfValuesIsRejected) {
     EXPECT_EQ(FieldSampler::make(field, volume).error().code(), Code::BadField);
 }
 
-TEST(FieldSampler, aCellWithTooManyVoxelsIsRejected) {
+TEST(FieldSampler, ACellWithTooManyVoxelsIsRejected) {
     const SemanticVolume volume = twoRooms();
     Field field = gridField({{2, 2, 2}, {0, 0, 0}, {1e4, 1e4, 1e4}, {}}, "all");
     EXPECT_EQ(FieldSampler::make(field, volume).error().code(), Code::InputTooBig);
 }
 
-TEST(FieldSampler, samplesMillionsOfPlacesPerSecond) {
+TEST(FieldSampler, SamplesMillionsOfPlacesPerSecond) {
     SemanticVolume volume = emptyVolume({200, 200, 100}, {0.1, 0.1, 0.1});
     Field field = gridField({{200, 200, 100}, {0, 0, 0}, {1, 1, 1}, {}}, "air");
     fill(field, [](Vec3d p) { return p.x; });

@@ -41,7 +41,7 @@ Field ramp(std::string medium, std::vector<double> times) {
 
 constexpr double kVoxel = 0.1 * 0.2 * 0.5;
 
-TEST(FieldStatistics, areThoseOfTheVoxelsOfALabel) {
+TEST(FieldStatistics, AreThoseOfTheVoxelsOfALabel) {
     const SemanticVolume volume = storeyWithTwoRooms();
     StatisticsOptions options;
     options.over = 6;
@@ -61,7 +61,7 @@ TEST(FieldStatistics, areThoseOfTheVoxelsOfALabel) {
     EXPECT_NEAR(*figures.shareUnder, 0.2, 1e-9) << "0 and 1";
 }
 
-TEST(FieldStatistics, sumsOfLabelsAreThoseOfTheirUnion) {
+TEST(FieldStatistics, SumsOfLabelsAreThoseOfTheirUnion) {
     const SemanticVolume volume = storeyWithTwoRooms();
     const auto sums = sumField(ramp("air", {0}), volume);
     const std::uint32_t all[] = {0, 1, 2, 3};
@@ -76,7 +76,7 @@ TEST(FieldStatistics, sumsOfLabelsAreThoseOfTheirUnion) {
     EXPECT_FALSE(none.mean || none.min || none.max || none.deviation || none.shareOver) << "unknown, not 0";
 }
 
-TEST(FieldStatistics, hoursAreInterpolatedBetweenTimes) {
+TEST(FieldStatistics, HoursAreInterpolatedBetweenTimes) {
     const SemanticVolume volume = storeyWithTwoRooms();
     StatisticsOptions options;
     options.over = 54.5;
@@ -97,7 +97,7 @@ TEST(FieldStatistics, hoursAreInterpolatedBetweenTimes) {
     EXPECT_NEAR(hoursBeyond(*sums, wall).unknown, 4, 1e-9);
 }
 
-TEST(FieldStatistics, doNotDependOnTheThreads) {
+TEST(FieldStatistics, DoNotDependOnTheThreads) {
     const SemanticVolume volume = storeyWithTwoRooms();
     StatisticsOptions one, two;
     one.threads = 1;
@@ -110,7 +110,7 @@ TEST(FieldStatistics, doNotDependOnTheThreads) {
     }
 }
 
-TEST(FieldStatistics, ofVectorsAreThoseOfAComponentOrTheLength) {
+TEST(FieldStatistics, OfVectorsAreThoseOfAComponentOrTheLength) {
     const SemanticVolume volume = storeyWithTwoRooms();
     Field field = ramp("air", {0});
     field.head.components = 3;

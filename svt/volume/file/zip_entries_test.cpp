@@ -37,7 +37,7 @@ struct Written {
     }
 };
 
-TEST(ZipEntries, newEntriesFollowTheOthersWhichKeepTheirBytes) {
+TEST(ZipEntries, NewEntriesFollowTheOthersWhichKeepTheirBytes) {
     const Written files;
     EXPECT_TRUE(test::isSame(*readSvt(files.after), test::sampleVolume()));
     const std::string before = readText(files.before), after = readText(files.after);
@@ -53,7 +53,7 @@ TEST(ZipEntries, newEntriesFollowTheOthersWhichKeepTheirBytes) {
     EXPECT_EQ(ranges->find("x-data"), nullptr);
 }
 
-TEST(ZipEntries, entriesAreRemovedAndNamesAreUnique) {
+TEST(ZipEntries, EntriesAreRemovedAndNamesAreUnique) {
     const Written files;
     const std::string after = readText(files.after);
     const auto isOld = [](std::string_view name) { return !name.starts_with("x-data/"); };
@@ -63,7 +63,7 @@ TEST(ZipEntries, entriesAreRemovedAndNamesAreUnique) {
     EXPECT_EQ(writeWithEntries(bytesOfString(after), files.after, isOld, twice).error().code(), Code::BadArgument);
 }
 
-TEST(ZipEntries, rangesOfAnEntryAreReadWithoutTheRest) {
+TEST(ZipEntries, RangesOfAnEntryAreReadWithoutTheRest) {
     const Written files;
     const std::string bytes = readText(files.after);
     std::uint64_t count = 0;
@@ -79,7 +79,7 @@ TEST(ZipEntries, rangesOfAnEntryAreReadWithoutTheRest) {
     EXPECT_LT(count, 100u);
 }
 
-TEST(ZipEntries, largeFormsAreRead) {
+TEST(ZipEntries, LargeFormsAreRead) {
     const TemporaryFolder folder;
     const std::string text = "some text";
     const ZipSource sources[] = {{"mimetype", {bytesOfString(text)}, false, false, {}},
@@ -90,7 +90,7 @@ TEST(ZipEntries, largeFormsAreRead) {
     EXPECT_EQ(stringOf(*ranges->unpacked(*ranges->find("b"), 100)), text);
 }
 
-TEST(ZipEntries, everyDamagedByteOfTheDirectoryIsAnErrorOrHarmless) {
+TEST(ZipEntries, EveryDamagedByteOfTheDirectoryIsAnErrorOrHarmless) {
     const Written files;
     const std::string bytes = readText(files.after);
     for (std::size_t b = bytes.find("x-data/long") - 30; b < bytes.size(); ++b) {
@@ -113,7 +113,7 @@ TEST(ZipEntries, everyDamagedByteOfTheDirectoryIsAnErrorOrHarmless) {
     }
 }
 
-TEST(ZipEntries, framesAreBounded) {
+TEST(ZipEntries, FramesAreBounded) {
     const std::vector<std::uint8_t> bytes(10000, 7);
     const auto frame = packFrame(bytes, "test");
     EXPECT_EQ(*unpackFrame(*frame, 10000, "test"), bytes);
