@@ -15,6 +15,7 @@ $XDG_CACHE_HOME/svt/checks.json, so that turns continue from one clone to the ne
 tests/checks.json. Exit code: 1 if a check failed.
 """
 import argparse
+import ctypes
 import dataclasses
 import datetime
 import json
@@ -135,8 +136,23 @@ def turns() -> list[str]:
     return sorted((name for name in order if CHECKS[name].is_heavy), key=turn)
 
 
+def children() -> list[int]:
+    """Processes that this one started or adopted."""
+    return [int(pid) for path in pathlib.Path("/proc/self/task").glob("*/children") for pid in path.read_text().split()]
+
+
+def end_children() -> None:
+    """Ends all processes below this one, also those that have sessions or groups of their own: each orphan is adopted."""
+    while found := children():
+        for pid in found:
+            os.kill(pid, signal.SIGKILL)
+            os.waitpid(pid, 0)
+
+
 def exit_code_of(command: str, output: TextIO, seconds: Optional[float]) -> Optional[int]:
     """Runs a command of bash; none if it was still running after some seconds and was ended with all its processes."""
+    PR_SET_CHILD_SUBREAPER = 36
+    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
     process = subprocess.Popen(
         ["bash", "-euo", "pipefail", "-c", command],
         cwd=ROOT,
@@ -148,8 +164,7 @@ def exit_code_of(command: str, output: TextIO, seconds: Optional[float]) -> Opti
     try:
         return process.wait(seconds)
     except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
+        end_children()
         return None
 
 

@@ -39,7 +39,7 @@ class Turns(unittest.TestCase):
     def test_a_check_that_still_runs_is_ended_with_its_processes_and_keeps_no_result(self) -> None:
         mark = self.work / "mark"
         start = time.monotonic()
-        command = f"(sleep 3; touch {mark}) & sleep 600"
+        command = f"(sleep 3; touch {mark}) & setsid bash -c 'sleep 3; touch {mark}' & timeout 600 sleep 600"
         passed, said, results = self.turn(0.01, {"hangs": verify.Check(command, 0.001)})
         self.assertTrue(passed)
         self.assertLess(time.monotonic() - start, 300)
