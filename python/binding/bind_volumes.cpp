@@ -65,7 +65,8 @@ SharedVolume openVolume(const Path& path, const Path& labels, const py::object& 
                          Place{path.string(), 0, 0, {}});
         return volume::readSvt(path);
     });
-    return std::make_shared<VolumeObject>(std::move(read), std::move(findings));
+    return std::make_shared<VolumeObject>(std::move(read), std::move(findings),
+                                          volume::isSvtFile(path) ? std::filesystem::absolute(path) : Path());
 }
 
 volume::Grid gridOf(Vec3i dimension, const std::array<double, 3>& spacing, const std::array<double, 3>& origin,
@@ -309,6 +310,7 @@ void bindVolumes(py::module_& module) {
         .def_property_readonly("crs", [](const SharedVolume& v) { return textOf(v->volume().crsName); })
         .def_property_readonly("name", [](const SharedVolume& v) { return textOf(v->volume().modelName); })
         .def_property_readonly("source", [](const SharedVolume& v) { return textOf(v->volume().source); })
+        .def_property_readonly("path", [](const SharedVolume& v) { return v->path(); })
         .def_property_readonly("findings", [](const SharedVolume& v) { return toPython(v->findings()); })
         .def_property_readonly("scalar_bits", [](const SharedVolume& v) { return v->volume().labels.scalarBits(); })
         .def_property_readonly("scalar_count", [](const SharedVolume& v) { return v->volume().labels.scalarCount(); })

@@ -20,6 +20,7 @@ void bindModels(py::module_& module);      ///< reading and building
 void bindVolumes(py::module_& module);     ///< volumes and labels, files
 void bindSamples(py::module_& module);     ///< dense arrays, points, rays, contacts
 void bindSections(py::module_& module);    ///< section drawings
+void bindFields(py::module_& module);      ///< fields of a volume
 void bindQuantities(py::module_& module);  ///< quantities of objects
 void bindPictures(py::module_& module);    ///< frames, PNG
 

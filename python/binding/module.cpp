@@ -9,6 +9,7 @@ PYBIND11_MODULE(_native, module) {
     svt::python::bindVolumes(module);
     svt::python::bindSamples(module);
     svt::python::bindSections(module);
+    svt::python::bindFields(module);
     svt::python::bindQuantities(module);
     svt::python::bindPictures(module);
 }

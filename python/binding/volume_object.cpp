@@ -1,5 +1,7 @@
 #include "volume_object.hpp"
 
+#include <svt/fields/svt_fields.hpp>
+
 #include <numeric>
 
 namespace svt::python {
@@ -39,11 +41,18 @@ Result<illustrate::Painting> VolumeObject::paint(const illustrate::Scene& scene,
                                                  std::vector<std::string>& nothing) {
     const std::lock_guard lock(painting_);
     if (!painter_) painter_.emplace(volume_);
+    std::optional<fields::Field> field;
+    if (scene.field && !path_.empty()) {
+        SVT_TRY(read, fields::readField(path_, scene.field->name));
+        field = std::move(*read);
+        SVT_DO(painter_->showField(&*field));
+    }
     painter_->tolerateNothing(&nothing);
     painter_->reportTo(options.progress);
     auto painting = painter_->paint(scene, options);
     painter_->tolerateNothing(nullptr);
     painter_->reportTo(nullptr);
+    if (field) SVT_DO(painter_->showField(nullptr));
     return painting;
 }
 

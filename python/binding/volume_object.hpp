@@ -14,6 +14,7 @@
 #include <svt/volume/semantic_volume.hpp>
 
 #include <array>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -26,13 +27,16 @@ namespace svt::python {
 /// must not hold the GIL, because they wait for each other.
 class VolumeObject {
 public:
-    explicit VolumeObject(volume::SemanticVolume made, Diagnostics found = {})
-        : volume_(std::move(made)), findings_(std::move(found)) {}
+    /// \param from  the `.svt` of the volume; empty without one
+    explicit VolumeObject(volume::SemanticVolume made, Diagnostics found = {}, std::filesystem::path from = {})
+        : volume_(std::move(made)), findings_(std::move(found)), path_(std::move(from)) {}
     VolumeObject(const VolumeObject&) = delete;
     VolumeObject& operator=(const VolumeObject&) = delete;
 
     [[nodiscard]] const volume::SemanticVolume& volume() const noexcept { return volume_; }
     [[nodiscard]] const Diagnostics& findings() const noexcept { return findings_; }
+    /// The `.svt` of the volume, which has its fields; empty without one.
+    [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
     [[nodiscard]] const volume::Label& label(std::uint32_t index) const noexcept {
         return volume_.labels.labels[index];
     }
@@ -51,13 +55,14 @@ public:
     /// Contacts and areas of all labels. Cost: analyze::findContacts() once.
     [[nodiscard]] const Measures& measures();
 
-    /// Draws a picture; one at a time.
+    /// Draws a picture; one at a time. Reads the field of the scene from path().
     [[nodiscard]] Result<illustrate::Painting> paint(const illustrate::Scene& scene, const render::CastOptions& options,
                                                      std::vector<std::string>& nothing);
 
 private:
     const volume::SemanticVolume volume_;
     const Diagnostics findings_;
+    const std::filesystem::path path_;
     std::mutex making_, painting_;
     std::optional<volume::BrickVolume> bricks_;
     std::optional<Measures> measures_;

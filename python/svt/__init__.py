@@ -16,6 +16,7 @@ from ._native import Feature, Label
 from .city import City
 from .comparison import Comparison, diff
 from .errors import Error, Finding, Place
+from .fields import Field, Fields
 from .labels import Labels
 from .model import Model, read, sample
 from .page import Page
@@ -33,6 +34,8 @@ __all__ = [
     "Component",
     "Error",
     "Feature",
+    "Field",
+    "Fields",
     "Finding",
     "Frame",
     "Label",

@@ -12,6 +12,7 @@ import numpy as np
 
 from . import _native
 from .errors import Finding
+from .fields import Fields
 from .labels import Labels
 from .model import Model, PathLike, Progress, paths_of
 from .optional import load
@@ -154,6 +155,11 @@ class Volume:
     def findings(self) -> list[Finding]:
         """Findings of the build; empty for a volume that was opened."""
         return self._native.findings
+
+    @property
+    def fields(self) -> Fields:
+        """The fields of the `.svt` from which the volume was opened: temperatures, smoke, sensors."""
+        return Fields(self)
 
     @property
     def box(self) -> np.ndarray:

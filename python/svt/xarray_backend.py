@@ -5,6 +5,7 @@ Import this module only where xarray is installed; xarray finds it by an entry p
 from __future__ import annotations
 
 import copy
+import datetime
 import os
 from typing import Any, Iterable
 
@@ -15,6 +16,7 @@ from xarray.core import indexing
 
 from . import _native
 from .cf import flag_meanings, grid_mapping
+from .fields import Field
 from .volume import Box, Volume, open
 
 #: Bytes of a chunk that dask gets by default.
@@ -87,23 +89,30 @@ def _metres(name: str, axis: str, values: np.ndarray, dimensions: Any, is_projec
     return xarray.Variable(dimensions, values, attributes)
 
 
-def _places(volume: Volume, is_projected: bool) -> dict[str, xarray.Variable]:
-    """Coordinates in metres in the CRS. A grid turned about z has xc and yc by (y, x); one turned otherwise, none."""
+def _places(volume: Volume, is_projected: bool, nodes: Any = None) -> dict[str, xarray.Variable]:
+    """Coordinates in metres in the CRS. A grid turned about z has xc and yc by (y, x); one turned otherwise, none.
+
+    Parameters
+    ----------
+    nodes
+        Positions along i, j and k; default: the samples of the volume.
+    """
     axes = np.array(volume.axes)
-    nz, ny, nx = volume.shape
+    along_i, along_j, along_k = map(np.arange, volume.dimension) if nodes is None else nodes
+    nz, ny, nx = len(along_k), len(along_j), len(along_i)
     if np.abs(axes[2] - (0, 0, 1)).max() > 1e-12:
         return {}
     along = np.zeros((nz, 3))
-    along[:, 2] = np.arange(nz)
+    along[:, 2] = along_k
     places = {"z": _metres("z", "Z", volume.world(along)[:, 2], "z", is_projected)}
     index = np.zeros((ny, nx, 3))
     if np.abs(axes - np.eye(3)).max() > 1e-12:
-        index[..., 1], index[..., 0] = np.mgrid[0:ny, 0:nx]
+        index[..., 1], index[..., 0] = np.meshgrid(along_j, along_i, indexing="ij")
         world = volume.world(index)
         for name, axis in (("xc", 0), ("yc", 1)):
             places[name] = _metres(name, "XY"[axis], world[..., axis], ("y", "x"), is_projected)
         return places
-    index[0, :, 0], index[:, 0, 1] = np.arange(nx), np.arange(ny)
+    index[0, :, 0], index[:, 0, 1] = along_i, along_j
     places["y"] = _metres("y", "Y", volume.world(index[:, 0])[:, 1], "y", is_projected)
     places["x"] = _metres("x", "X", volume.world(index[0])[:, 0], "x", is_projected)
     return places
@@ -159,6 +168,39 @@ def _dataset(volume: Volume, reopen: tuple | None) -> xarray.Dataset:
         "axes": [number for axis in volume.axes for number in axis],
     }
     return xarray.Dataset(variables, _places(volume, bool(mapping)), {key: v for key, v in about.items() if v != ""})
+
+
+def _time(field: Field) -> xarray.Variable:
+    """Times of a field: dates if it has an epoch, else seconds."""
+    if field.epoch is None:
+        return xarray.Variable("time", field.times, {"units": "s", "long_name": "time"})
+    begin = datetime.datetime.fromisoformat(field.epoch.replace("Z", "+00:00"))
+    utc = np.datetime64(begin.astimezone(datetime.timezone.utc).replace(tzinfo=None), "ns")
+    return xarray.Variable("time", utc + np.round(field.times * 1e9).astype("timedelta64[ns]"), {"long_name": "time"})
+
+
+def field_array(volume: Volume, field: Field) -> xarray.DataArray:
+    """The values of a field with their units and coordinates."""
+    coordinates: dict[str, xarray.Variable] = {"time": _time(field)}
+    attributes = {"units": field.unit, "long_name": field.quantity or field.name, "medium": field.medium}
+    mapping = grid_mapping(volume.crs)
+    dimensions: tuple[str, ...] = {"grid": ("z", "y", "x"), "label": ("label",), "points": ("point",)}[field.kind]
+    if field.kind == "grid":
+        coordinates.update(_places(volume, bool(mapping), field.nodes))
+    elif field.kind == "label":
+        coordinates["label"] = xarray.Variable("label", np.array([label.id for label in volume.labels], object))
+    else:
+        at = np.array(list(field.points.values())).reshape(-1, 3)
+        coordinates["point"] = xarray.Variable("point", np.array(list(field.points), object))
+        for axis, name in enumerate("xyz"):
+            coordinates[name] = _metres(name, name.upper(), at[:, axis], "point", bool(mapping))
+    if mapping:
+        attributes["grid_mapping"] = "crs"
+        coordinates["crs"] = xarray.Variable((), np.int32(0), mapping)
+    if field.components > 1:
+        dimensions = ("component",) + dimensions
+        coordinates["component"] = xarray.Variable("component", ["x", "y", "z"])
+    return xarray.DataArray(field.values, coordinates, ("time",) + dimensions, field.name, attributes)
 
 
 class SvtBackendEntrypoint(BackendEntrypoint):

@@ -53,8 +53,18 @@ class Manual(unittest.TestCase):
         return names
 
     def test_each_part_with_code_has_a_test(self):
-        tested = {"Work with xarray", "Tables", "Maps", "Notebook", "VTK and PyVista"}
+        tested = {"Work with xarray", "Fields", "Tables", "Maps", "Notebook", "VTK and PyVista"}
         self.assertEqual(set(parts()), tested)
+
+    def test_fields(self):
+        names = self.run_part("Fields")
+        rooms = names["rooms"]
+        self.assertGreater(len(rooms), 3)
+        self.assertTrue((rooms["share_over"] >= 0).all() and (rooms["share_over"] <= 1).all())
+        self.assertEqual(names["image"].shape, (360, 640, 4))
+        heights = names["heights"].values
+        self.assertTrue((heights[1:] >= heights[:-1]).all())
+        self.assertEqual(len(names["v"].fields), 0)
 
     def test_xarray(self):
         names = self.run_part("Work with xarray")

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace svt::fields {
@@ -49,6 +50,17 @@ struct FieldStatistics {
         return sums[label + labelCount * time];
     }
 };
+
+/// The labels of a row of statistics.
+struct StatisticsRow {
+    std::uint32_t label = 0;            ///< names the row
+    std::vector<std::uint32_t> labels;  ///< whose voxels count
+};
+/// A row per selected component; storeys and other groups stand for all their parts.
+/// \param query  empty: all components with voxels in the medium of the field
+/// \return the rows; or as mediumOf(), BadQuery, NothingSelected
+[[nodiscard]] Result<std::vector<StatisticsRow>> statisticsRows(const std::string& query, const FieldHead& head,
+                                                                const volume::SemanticVolume& volume);
 
 /// Cost: one sample per voxel of a label and time. Memory: 64 bytes per label and time.
 /// \return the sums; or as FieldSampler::make(); BadArgument for a component that does not exist

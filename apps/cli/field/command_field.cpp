@@ -6,11 +6,9 @@
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
-#include <svt/analyze/extents.hpp>
-#include <svt/analyze/selection.hpp>
 #include <svt/core/file.hpp>
-#include <svt/fields/field_sampler.hpp>
 #include <svt/fields/svt_fields.hpp>
+#include <svt/model/query.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
@@ -67,24 +65,6 @@ Result<int> runFieldList(const FieldListArguments& arguments) {
     return kDone;
 }
 
-// The components of a query, each with its parts; without one, all components with voxels in the medium.
-Result<std::vector<StatisticsRow>> statisticsRows(const std::string& query, const fields::FieldHead& head,
-                                                  const volume::SemanticVolume& volume) {
-    std::vector<StatisticsRow> rows;
-    const auto& labels = volume.labels.labels;
-    if (query.empty()) {
-        SVT_TRY(isMedium, fields::mediumOf(head, volume));
-        for (std::uint32_t l = 0; l < labels.size(); ++l)
-            if (labels[l].voxels > 0 && (*isMedium)[labels[l].first] != 0) rows.push_back({l, {l}});
-        return rows;
-    }
-    SVT_TRY(selected, analyze::selectLabels(volume, query));
-    const analyze::Extents extents(volume.labels);
-    for (const std::uint32_t l : *selected)
-        rows.push_back({l, extents.standsForParts(l) ? extents.of(l) : std::vector{l}});
-    return rows;
-}
-
 // Writes a table and prints it. \param shown  the rows to print as text, if no file is written
 Result<void> putTable(const Table& table, const Table& shown, const std::filesystem::path& output, bool isJson,
                       bool isCsv) {
@@ -115,7 +95,7 @@ Result<int> runFieldStats(const FieldStatsArguments& arguments) {
     const TerminalProgress progress;
     SVT_TRY(field, fields::readField(arguments.input, arguments.name));
     SVT_TRY(volume, volume::readSvt(arguments.input));
-    SVT_TRY(rows, statisticsRows(arguments.by, field->head, *volume));
+    SVT_TRY(rows, fields::statisticsRows(arguments.by, field->head, *volume));
     fields::StatisticsOptions options = arguments.options;
     if (field->head.components > 1) options.component = fields::StatisticsOptions::kMagnitude;
     SVT_TRY(statistics, fields::sumField(*field, *volume, options));

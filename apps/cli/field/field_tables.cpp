@@ -98,7 +98,7 @@ Json fieldsJson(std::span<const ListedField> listed) {
 }
 
 Table statisticsTable(const FieldHead& head, const fields::FieldStatistics& statistics,
-                      std::span<const StatisticsRow> rows, const volume::LabelTable& labels, bool hasTimes) {
+                      std::span<const fields::StatisticsRow> rows, const volume::LabelTable& labels, bool hasTimes) {
     const bool isSeries = statistics.times.size() > 1;
     const fields::StatisticsOptions& options = statistics.options;
     Table table;
@@ -113,7 +113,7 @@ Table statisticsTable(const FieldHead& head, const fields::FieldStatistics& stat
     if (isSeries && options.over) table.columns.push_back({"hoursOver", "h over"});
     if (isSeries && options.under) table.columns.push_back({"hoursUnder", "h under"});
     if (isSeries && (options.over || options.under)) table.columns.push_back({"hoursUnknown", "h unknown"});
-    for (const StatisticsRow& one : rows) {
+    for (const fields::StatisticsRow& one : rows) {
         const volume::Label& label = labels.labels[one.label];
         const Row start{label.id, label.className, label.name};
         for (std::size_t time = 0; time < statistics.times.size() && (hasTimes || !isSeries); ++time) {

@@ -21,15 +21,10 @@ namespace svt::cli {
 /// Everything that is known of the fields except their values.
 [[nodiscard]] Json fieldsJson(std::span<const fields::ListedField> listed);
 
-/// The labels of a row of statistics.
-struct StatisticsRow {
-    std::uint32_t label = 0;            ///< names the row
-    std::vector<std::uint32_t> labels;  ///< whose voxels count
-};
 /// A row per component and time; with several times, a further row over all times, whose cell `time` is empty.
 /// \param hasTimes  false: only the row over all times, or the row of the only time
 [[nodiscard]] Table statisticsTable(const fields::FieldHead& head, const fields::FieldStatistics& statistics,
-                                    std::span<const StatisticsRow> rows, const volume::LabelTable& labels,
+                                    std::span<const fields::StatisticsRow> rows, const volume::LabelTable& labels,
                                     bool hasTimes);
 
 /// The values of a field at places over time: a row per place and time.

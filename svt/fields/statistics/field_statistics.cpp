@@ -1,5 +1,7 @@
 #include <svt/fields/field_statistics.hpp>
 
+#include <svt/analyze/extents.hpp>
+#include <svt/analyze/selection.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/fields/field_sampler.hpp>
 
@@ -190,6 +192,23 @@ HoursBeyond hoursBeyond(const FieldStatistics& statistics, std::span<const std::
     if (hours.known > 0 && statistics.options.over) hours.over = over;
     if (hours.known > 0 && statistics.options.under) hours.under = under;
     return hours;
+}
+
+Result<std::vector<StatisticsRow>> statisticsRows(const std::string& query, const FieldHead& head,
+                                                  const SemanticVolume& volume) {
+    std::vector<StatisticsRow> rows;
+    const auto& labels = volume.labels.labels;
+    if (query.empty()) {
+        SVT_TRY(isMedium, mediumOf(head, volume));
+        for (std::uint32_t l = 0; l < labels.size(); ++l)
+            if (labels[l].voxels > 0 && (*isMedium)[labels[l].first] != 0) rows.push_back({l, {l}});
+        return rows;
+    }
+    SVT_TRY(selected, analyze::selectLabels(volume, query));
+    const analyze::Extents extents(volume.labels);
+    for (const std::uint32_t l : *selected)
+        rows.push_back({l, extents.standsForParts(l) ? extents.of(l) : std::vector{l}});
+    return rows;
 }
 
 }  // namespace svt::fields
