@@ -31,10 +31,10 @@ public:
     }
 
 private:
-    Error wrong(std::string message, Code code = Code::CannotOpen) const {
+    [[nodiscard]] Error wrong(std::string message, Code code = Code::CannotOpen) const {
         return {code, std::move(message), {address_, 0, 0, {}}};
     }
-    Error at(const Error& error) const { return {error.code(), error.message(), {address_, 0, 0, {}}}; }
+    [[nodiscard]] Error at(const Error& error) const { return {error.code(), error.message(), {address_, 0, 0, {}}}; }
 
     Result<void> begin() {
         file_.reset();

@@ -79,7 +79,7 @@ bool readJpegHeader(JpegState& state) {
 Result<void> decodeJpeg(std::span<const std::byte> bytes, std::uint64_t maxPixels, const JpegRows& rows) {
     JpegState state;
     state.bytes = bytes;
-    const auto fail = [&](std::string why) { return Error(Code::BadImage, "the JPEG cannot be read: " + why); };
+    const auto fail = [&](const std::string& why) { return Error(Code::BadImage, "the JPEG cannot be read: " + why); };
     if (!readJpegHeader(state)) return fail(state.message);
     const std::uint64_t pixels = std::uint64_t{state.info.image_width} * state.info.image_height;
     const std::uint64_t most = state.info.progressive_mode ? std::min(maxPixels, kMaxProgressivePixels) : maxPixels;

@@ -160,7 +160,7 @@ private:
         geometry.kind = hadSolids && !geometry.solids.empty() ? GeometryKind::Solid : GeometryKind::Surface;
     }
 
-    std::int32_t materialOf(const SurfaceUse& use) const {
+    [[nodiscard]] std::int32_t materialOf(const SurfaceUse& use) const {
         const std::int32_t material = model_.polygons[use.polygon].material;
         return material < 0 ? -1 : same_[static_cast<std::size_t>(material)];
     }
@@ -191,7 +191,7 @@ private:
     }
 
     // The groups into which an object is split; one if it stays whole.
-    std::vector<Group> groupsOf(const Feature& feature) const {
+    [[nodiscard]] std::vector<Group> groupsOf(const Feature& feature) const {
         std::map<std::int32_t, Group> byMaterial;
         if (std::int32_t material = -1; hasOneMaterial(feature, material)) {
             std::vector<Group> whole(1);
@@ -231,7 +231,7 @@ private:
     }
 
     // Whether an object is not split: its class, its levels of detail, or surfaces that only together are closed.
-    bool isWhole(const Feature& feature, const std::vector<Group>& groups) const {
+    [[nodiscard]] bool isWhole(const Feature& feature, const std::vector<Group>& groups) const {
         if (groups.size() < 2 || feature.geometries.size() > 1 || isBoundarySurface(feature.className)) return true;
         if (insideOf(feature.className) == Inside::Never || classRank(feature.className) == ClassRank::Building)
             return true;
@@ -253,7 +253,7 @@ private:
     }
 
     // Joins the parts that do not become phases: those without material, and opaque ones of walls and their like.
-    std::vector<Group> withRest(const Feature& feature, std::vector<Group> groups) const {
+    [[nodiscard]] std::vector<Group> withRest(const Feature& feature, std::vector<Group> groups) const {
         const ClassRank rank = classRank(feature.className);
         const bool splitsColors = rank <= ClassRank::Installation;
         std::vector<Group> result;

@@ -210,7 +210,7 @@ std::vector<PartRole> withoutRoofs(const SectionDrawing& drawing, const std::vec
     bool hasWalls = true;
     for (const int axis : {0, 1})
         hasWalls = hasWalls && walls.high[axis] - walls.low[axis] >= kLeastShare * (all.high[axis] - all.low[axis]);
-    return rolesIn(drawing, hasWalls ? std::move(others) : roles);
+    return rolesIn(drawing, hasWalls ? others : roles);
 }
 
 }  // namespace

@@ -224,6 +224,34 @@ TEST(FieldDrawing, UprightAndObliqueSectionsOfTurnedGrids) {
     }
 }
 
+TEST(FieldDrawing, PlacesWithoutAValueReachTheOutlineOfTheRoom) {
+    const SemanticVolume volume = twoRooms();
+    SectionDrawing plan = planOf(volume);
+    // The faces of the room lie 3 cm within the voxels of its walls.
+    constexpr double kGrown = 0.03;
+    const auto grow = [&](Ring& ring) {
+        double u = 0, v = 0;
+        for (const PlanePoint p : ring) {
+            u += p.u / double(ring.size());
+            v += p.v / double(ring.size());
+        }
+        for (PlanePoint& p : ring) p = {p.u + (p.u > u ? kGrown : -kGrown), p.v + (p.v > v ? kGrown : -kGrown)};
+    };
+    for (SectionComponent& component : plan.components)
+        for (SectionPolygon& polygon : component.polygons) {
+            if (component.label == 1) grow(polygon.outer);
+            for (Ring& hole : polygon.holes)
+                if (component.label == 0) grow(hole);
+        }
+    const double middle = volume.grid.origin().x + 2.05;
+    const fields::Field field = fieldOf("air", [](Vec3d p) { return p.x < 2.05 ? kMissing : p.x; });
+    const FieldDrawing made = drawn(plan, volume, field, {.bands = 1.0});
+    double west = 0;
+    for (const SectionPolygon& polygon : made.missing)
+        if (plan.axes.worldFromPlane(polygon.outer.front()).x < middle) west += polygon.area;
+    EXPECT_NEAR(west, (1.9 + 2 * kGrown) * (2.9 + 2 * kGrown), 1e-3);
+}
+
 TEST(FieldDrawing, PlacesWithoutAValueAreNamed) {
     const SemanticVolume volume = twoRooms();
     const SectionDrawing plan = planOf(volume);

@@ -61,6 +61,14 @@ RegionGrid::RegionGrid(const FieldRegion& region, const FieldSource& source) : r
         if (fill(refine) >= kFewNodes && !hasThinWall()) break;
     extend();
     findPlaces();
+    hasEmptySpace_ = meetsEmptySpace();
+}
+
+bool RegionGrid::meetsEmptySpace() const noexcept {
+    for (std::size_t j = 0; j < vs_.size(); ++j)
+        for (std::size_t i = 0; i < us_.size(); ++i)
+            if (inside_[node(i, j)] != 0 && scalarAt({us_[i], vs_[j]}) == 0) return true;
+    return false;
 }
 
 // Makes the nodes and samples them.
@@ -144,46 +152,51 @@ bool RegionGrid::hasThinWall() const noexcept {
     return false;
 }
 
-// Continues the values to nodes beyond the region and in the voxels of its walls, linearly along the eight directions.
+// The value of a node from its neighbours along the eight directions: linear where a direction has two known nodes, else their
+// mean; kNone without known neighbours.
+double RegionGrid::continuedValue(std::ptrdiff_t i, std::ptrdiff_t j) const noexcept {
+    const auto width = static_cast<std::ptrdiff_t>(us_.size()), height = static_cast<std::ptrdiff_t>(vs_.size());
+    const auto at = [&](std::ptrdiff_t di, std::ptrdiff_t dj) -> double {
+        const std::ptrdiff_t x = i + di, y = j + dj;
+        if (x < 0 || y < 0 || x >= width || y >= height) return kNone;
+        return values_[static_cast<std::size_t>(x + y * width)];
+    };
+    // Distance to the next node by that between the next two.
+    const auto gap = [](const std::vector<double>& lines, std::ptrdiff_t k, int sign) {
+        const auto coordinate = [&](std::ptrdiff_t m) { return lines[static_cast<std::size_t>(m)]; };
+        return (coordinate(k + sign) - coordinate(k)) / (coordinate(k + 2 * sign) - coordinate(k + sign));
+    };
+    double linear = 0, constant = 0;
+    int linears = 0, constants = 0;
+    for (int d = 0; d < 9; ++d) {
+        const int du = d % 3 - 1, dv = d / 3 - 1;
+        const double near = at(du, dv), far = at(2 * du, 2 * dv);
+        if ((du == 0 && dv == 0) || std::isnan(near)) continue;
+        constant += near;
+        ++constants;
+        if (std::isnan(far)) continue;
+        // The steps along u and v may differ on a rectilinear lattice; then only the axes are linear.
+        const double ratioU = du != 0 ? gap(us_, i, du) : gap(vs_, j, dv);
+        const double ratioV = dv != 0 ? gap(vs_, j, dv) : ratioU;
+        if (std::abs(ratioU - ratioV) > 1e-9) continue;
+        linear += near + (near - far) * ratioU;
+        ++linears;
+    }
+    if (linears > 0) return linear / linears;
+    return constants > 0 ? constant / constants : kNone;
+}
+
+// Continues the values to nodes beyond the region and in the voxels of its walls.
 void RegionGrid::extend() {
     const auto width = static_cast<std::ptrdiff_t>(us_.size()), height = static_cast<std::ptrdiff_t>(vs_.size());
-    std::vector<std::size_t> front;
     for (int step = 0; step < kContinuedNodes; ++step) {
         std::vector<std::pair<std::size_t, double>> found;
         for (std::ptrdiff_t j = 0; j < height; ++j)
             for (std::ptrdiff_t i = 0; i < width; ++i) {
-                const auto at = [&](std::ptrdiff_t di, std::ptrdiff_t dj) -> double {
-                    const std::ptrdiff_t x = i + di, y = j + dj;
-                    if (x < 0 || y < 0 || x >= width || y >= height) return kNone;
-                    return values_[static_cast<std::size_t>(x + y * width)];
-                };
                 const auto own = static_cast<std::size_t>(i + j * width);
                 if (nodes_[own] != Node::Beyond || !std::isnan(values_[own])) continue;
-                double linear = 0, constant = 0;
-                int linears = 0, constants = 0;
-                for (int d = 0; d < 9; ++d) {
-                    const int du = d % 3 - 1, dv = d / 3 - 1;
-                    const double near = at(du, dv), far = at(2 * du, 2 * dv);
-                    if ((du == 0 && dv == 0) || std::isnan(near)) continue;
-                    constant += near;
-                    ++constants;
-                    if (std::isnan(far)) continue;
-                    // The steps along u and v may differ on a rectilinear lattice; then only the axes are linear.
-                    const auto gap = [&](const std::vector<double>& lines, std::ptrdiff_t k, int sign) {
-                        const auto coordinate = [&](std::ptrdiff_t m) { return lines[static_cast<std::size_t>(m)]; };
-                        return (coordinate(k + sign) - coordinate(k)) /
-                               (coordinate(k + 2 * sign) - coordinate(k + sign));
-                    };
-                    const double ratioU = du != 0 ? gap(us_, i, du) : gap(vs_, j, dv);
-                    const double ratioV = dv != 0 ? gap(vs_, j, dv) : ratioU;
-                    if (std::abs(ratioU - ratioV) > 1e-9) continue;
-                    linear += near + (near - far) * ratioU;
-                    ++linears;
-                }
-                if (linears > 0)
-                    found.emplace_back(own, linear / linears);
-                else if (constants > 0)
-                    found.emplace_back(own, constant / constants);
+                const double value = continuedValue(i, j);
+                if (!std::isnan(value)) found.emplace_back(own, value);
             }
         for (const auto& [n, value] : found) values_[n] = value;
     }
@@ -301,6 +314,8 @@ std::vector<Ring> RegionGrid::ringsIn(std::size_t column, std::size_t row) const
 }
 
 bool RegionGrid::isInComponent(std::size_t column, std::size_t row) const noexcept {
+    // The outline of a room may reach into voxels of its walls.
+    if (!hasEmptySpace_) return true;
     for (int n = 0; n < 4; ++n) {
         const volume::Scalar scalar = scalarAt(corner(column, row, n));
         if (inside_[node(column + (n == 1 || n == 2 ? 1 : 0), row + (n >= 2 ? 1 : 0))] != 0 && scalar != 0 &&

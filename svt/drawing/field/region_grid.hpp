@@ -72,9 +72,11 @@ private:
     enum class Node : std::uint8_t { Beyond, Known, Missing };
     [[nodiscard]] std::size_t node(std::size_t i, std::size_t j) const noexcept { return i + j * us_.size(); }
     std::size_t fill(double refine);
+    [[nodiscard]] bool meetsEmptySpace() const noexcept;
     void findNodes();
     void sampleRow(std::size_t j);
     [[nodiscard]] bool hasThinWall() const noexcept;
+    [[nodiscard]] double continuedValue(std::ptrdiff_t i, std::ptrdiff_t j) const noexcept;
     void extend();
     void findPlaces();
     [[nodiscard]] std::span<const std::uint32_t> edgesOf(std::size_t row) const noexcept {
@@ -91,6 +93,7 @@ private:
     std::vector<Node> nodes_;              // by node
     std::vector<double> values_;           // by node; NaN: none
     std::vector<Place> places_;            // by cell
+    bool hasEmptySpace_ = false;           // whether the region has nodes in empty space
     std::vector<std::uint32_t> rowEdges_;  // edges that meet the row of cells, row by row
     std::vector<std::size_t> rowStarts_;
     mutable std::size_t clippedRow_ = ~std::size_t{0};

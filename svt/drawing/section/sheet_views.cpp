@@ -51,7 +51,8 @@ Result<std::optional<double>> placeInRange(const volume::SemanticVolume& volume,
     const std::vector<PartRole>& roles = tables.roles();
     // From the middle outwards, avoiding round fractions of the extent, where walls often stand.
     const auto placeOf = [&](std::size_t n) {
-        const auto step = static_cast<double>((n + 1) / 2);
+        const std::size_t stepNumber = (n + 1) / 2;
+        const auto step = static_cast<double>(stepNumber);
         return range.low + (0.487 + (n % 2 == 0 ? 1 : -1) * range.spread * step) * range.size;
     };
     std::array<std::optional<Result<SectionDrawing>>, 9> drawings;

@@ -94,10 +94,10 @@ Result<model::BuildingModel> readAll(std::span<const File> files, ReadOptions op
 
 Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, ReadOptions options,
                                         Diagnostics* log) {
-    return readAll(files, options, log);
+    return readAll(files, std::move(options), log);
 }
 Result<model::BuildingModel> readModels(std::span<const NamedBytes> files, ReadOptions options, Diagnostics* log) {
-    return readAll(files, options, log);
+    return readAll(files, std::move(options), log);
 }
 
 }  // namespace svt::readers
