@@ -41,7 +41,7 @@ TABLE_BEGIN, TABLE_END = "<!-- checks: begin -->\n", "<!-- checks: end -->\n"
 FOLDERS = {
     "data": "core http plane record image model crs readers mesh validate",
     "volumes": "volume volume_readers voxelize analyze samples serve",
-    "pictures": "quantities render render_gl fields field_readers simulate drawing compare illustrate writers",
+    "pictures": "quantities render render_gl fields field_readers field_writers simulate drawing compare illustrate writers",
     "chains": "pipeline city frontend",
     "command": "cli",
 }
@@ -69,7 +69,7 @@ CHECKS = {
         f"analyzer/{part}": Check(f"scripts/setup.sh checks && scripts/tidy.py --analyzer --only '{pattern}'", 20)
         for part, pattern in {
             "library": "/svt/(core|plane|record|image|model|crs|readers|mesh|validate"
-            "|volume|volume_readers|voxelize|analyze|quantities|render|fields|field_readers|simulate)/",
+            "|volume|volume_readers|voxelize|analyze|quantities|render|fields|field_readers|field_writers|simulate)/",
             "programs": "/svt/(render_gl|drawing|compare|illustrate|writers|samples|serve|pipeline|city|frontend)/"
             "|/(apps|python)/",
         }.items()

@@ -1,4 +1,5 @@
 #include <apps/cli/field/field_add.hpp>
+#include <apps/cli/field/field_export.hpp>
 #include <apps/cli/field/field_tables.hpp>
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
@@ -6,7 +7,6 @@
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
-#include <svt/core/file.hpp>
 #include <svt/fields/svt_fields.hpp>
 #include <svt/model/query.hpp>
 #include <svt/volume/svt_file.hpp>
@@ -42,17 +42,6 @@ struct FieldRemoveArguments {
     std::vector<std::string> names;
 };
 
-Result<void> requireSvt(const std::filesystem::path& input) {
-    SVT_TRY(file, PartFile::open(input));
-    SVT_TRY(head, file->read(0, 4096));
-    if (volume::looksLikeSvt(std::as_bytes(std::span(*head)))) return {};
-    return Error(
-        Code::BadVolume,
-        "this is not a .svt, so it has no fields; build a volume with 'svt build', then add fields with 'svt field "
-        "add'",
-        Place{input.string(), 0, 0, {}});
-}
-
 Result<int> runFieldList(const FieldListArguments& arguments) {
     SVT_DO(requireSvt(arguments.input));
     SVT_TRY(listed, fields::listFields(arguments.input));
@@ -68,17 +57,7 @@ Result<int> runFieldList(const FieldListArguments& arguments) {
 // Writes a table and prints it. \param shown  the rows to print as text, if no file is written
 Result<void> putTable(const Table& table, const Table& shown, const std::filesystem::path& output, bool isJson,
                       bool isCsv) {
-    if (!output.empty()) {
-        const std::string ending = endingOf(output);
-        std::string text;
-        if (ending == ".parquet") {
-            SVT_TRY(bytes, writers::makeParquet(table));
-            text = std::move(*bytes);
-        } else {
-            text = ending == ".json" ? writers::makeJson(table) : writers::makeCsv(table);
-        }
-        SVT_DO(writeFileAtomically(output, text));
-    }
+    if (!output.empty()) SVT_DO(writeTable(table, output));
     TerminalProgress::hide();
     if (isJson || isCsv)
         print(table, isJson ? TableFormat::JsonRows : TableFormat::Csv);
@@ -225,6 +204,8 @@ extern const CommandText kFieldStatsCommand =
     commandOf<FieldStatsArguments, runFieldStats>("field-stats", "Statistics of a field per component or room");
 extern const CommandText kFieldProbeCommand =
     commandOf<FieldProbeArguments, runFieldProbe>("field-probe", "Print the values of a field at a place over time");
+extern const CommandText kFieldExportCommand = commandOf<FieldExportArguments, runFieldExport>(
+    "field-export", "Write a field for other programs: VTK, NRRD, tables");
 extern const CommandText kFieldRemoveCommand =
     commandOf<FieldRemoveArguments, runFieldRemove>("field-remove", "Remove fields from a volume");
 

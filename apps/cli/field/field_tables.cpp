@@ -1,8 +1,13 @@
 #include <apps/cli/field/field_tables.hpp>
 
+#include <apps/cli/output/output_files.hpp>
+
+#include <svt/core/file.hpp>
 #include <svt/core/names.hpp>
 #include <svt/fields/check_field.hpp>
 #include <svt/fields/field_sampler.hpp>
+#include <svt/fields/lattice_nodes.hpp>
+#include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
 
@@ -72,6 +77,20 @@ void appendFigures(Row& row, const fields::FieldFigures& figures, const fields::
     row.emplace_back(figures.missing);
     if (options.over) row.push_back(cellOf(figures.shareOver));
     if (options.under) row.push_back(cellOf(figures.shareUnder));
+}
+
+// The cells that name a place of a field.
+Row placeCells(const FieldHead& head, const volume::SemanticVolume& volume, std::size_t place) {
+    if (head.kind == FieldKind::Label) {
+        const volume::Label& label = volume.labels.labels[place];
+        return {label.id, label.className, label.name};
+    }
+    if (head.kind == FieldKind::Points) {
+        const fields::FieldPoint& point = head.points[place];
+        return {point.id, point.at.x, point.at.y, point.at.z};
+    }
+    const Vec3d at = volume.grid.worldFromIndex(fields::nodeAt(head.lattice, place));
+    return {at.x, at.y, at.z};
 }
 
 }  // namespace
@@ -163,6 +182,63 @@ Result<Table> probeTable(const fields::Field& field, const volume::SemanticVolum
         }
     }
     return table;
+}
+
+Result<Table> valueTable(const fields::Field& field, const volume::SemanticVolume& volume,
+                         std::span<const std::size_t> times) {
+    const FieldHead& head = field.head;
+    const std::size_t places = fields::placeCount(head, volume.labels.labels.size());
+    const auto components = static_cast<std::size_t>(head.components);
+    Table table;
+    if (head.kind != FieldKind::Grid) table.columns.push_back({"id", "id"});
+    if (head.kind == FieldKind::Label)
+        table.columns.insert(table.columns.end(), {{"class", "class"}, {"name", "name"}});
+    else
+        table.columns.insert(table.columns.end(), {{"x", "x"}, {"y", "y"}, {"z", "z"}});
+    table.columns.push_back({"time", "s"});
+    for (const char* name : {"valueX", "valueY", "valueZ"})
+        if (components > 1) table.columns.push_back({name, head.unit});
+    if (components == 1) table.columns.push_back({"value", head.unit});
+    for (const std::size_t time : times)
+        for (std::size_t place = 0; place < places; ++place) {
+            const auto valueAt = [&](std::size_t c) { return field.values[(time * components + c) * places + place]; };
+            if (std::isnan(valueAt(0))) continue;
+            if (table.rows.size() == kMostValueRows)
+                return Error(
+                    Code::InputTooBig,
+                    fmt::format("the field '{}' has more than {} values; choose a time with --time, or write a "
+                                ".vti, .vtr or .nrrd",
+                                head.name, kMostValueRows));
+            Row row = placeCells(head, volume, place);
+            row.emplace_back(head.times[time]);
+            for (std::size_t c = 0; c < components; ++c) row.emplace_back(valueAt(c));
+            table.rows.push_back(std::move(row));
+        }
+    return table;
+}
+
+Result<void> writeTable(const Table& table, const std::filesystem::path& output) {
+    const std::string ending = endingOf(output);
+    std::string text;
+    if (ending == ".parquet") {
+        SVT_TRY(bytes, writers::makeParquet(table));
+        text = std::move(*bytes);
+    } else {
+        text = ending == ".json" ? writers::makeJson(table) : writers::makeCsv(table);
+    }
+    SVT_DO(writeFileAtomically(output, text));
+    return {};
+}
+
+Result<void> requireSvt(const std::filesystem::path& input) {
+    SVT_TRY(file, PartFile::open(input));
+    SVT_TRY(head, file->read(0, 4096));
+    if (volume::looksLikeSvt(std::as_bytes(std::span(*head)))) return {};
+    return Error(
+        Code::BadVolume,
+        "this is not a .svt, so it has no fields; build a volume with 'svt build', then add fields with 'svt field "
+        "add'",
+        Place{input.string(), 0, 0, {}});
 }
 
 }  // namespace svt::cli

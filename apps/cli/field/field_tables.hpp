@@ -11,6 +11,7 @@
 #include <svt/volume/semantic_volume.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,20 @@ namespace svt::cli {
 [[nodiscard]] Table statisticsTable(const fields::FieldHead& head, const fields::FieldStatistics& statistics,
                                     std::span<const fields::StatisticsRow> rows, const volume::LabelTable& labels,
                                     bool hasTimes);
+
+/// Rows of a table of values, at most.
+inline constexpr std::uint64_t kMostValueRows = 2'000'000;
+/// The known values of a field: a row per node, component or point and time, with its place in world space or its id.
+/// \param times  indices into the times of the field
+/// \return the table, or InputTooBig for more than kMostValueRows values
+[[nodiscard]] Result<Table> valueTable(const fields::Field& field, const volume::SemanticVolume& volume,
+                                       std::span<const std::size_t> times);
+
+/// Writes a table as its ending says: .csv, .json or .parquet.
+[[nodiscard]] Result<void> writeTable(const Table& table, const std::filesystem::path& output);
+
+/// \return success, or BadVolume for an input that is not a `.svt`
+[[nodiscard]] Result<void> requireSvt(const std::filesystem::path& input);
 
 /// The values of a field at places over time: a row per place and time.
 /// \param places  world space

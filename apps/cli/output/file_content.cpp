@@ -32,6 +32,7 @@ constexpr FileFormat kFormats[] = {
     {"json", ".json", FileContent::PlainJson, "a table as JSON", {}},
     {"html", ".html", FileContent::Html, "a report: a check, or two states", "browsers"},
     {"bcf", ".bcf", FileContent::Zip, "issues with cameras and pictures (BCF 3.0)", "BIM programs"},
+    {"vtr", ".vtr", FileContent::Vtk, "values on a lattice", "ParaView, VTK, PyVista"},
     {"csv", ".csv", FileContent::Text, "a table", "spreadsheets"},
     {"xlsx", ".xlsx", FileContent::Zip, "tables as a workbook", "Excel, LibreOffice Calc"},
     {"citygml", ".gml|.xml", FileContent::CityGml, "a CityGML model", {}},

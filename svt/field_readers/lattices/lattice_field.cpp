@@ -24,20 +24,15 @@ void splitComponents(std::size_t places, std::size_t components, std::vector<flo
     values = std::move(split);
 }
 
-template <class T>
-void appendNumbers(std::string_view bytes, std::endian order, std::vector<float>& to) {
+template <class Stored, class Number>
+void appendNumbers(std::string_view bytes, std::endian order, std::vector<Number>& to) {
     const auto* at = reinterpret_cast<const std::byte*>(bytes.data());
-    for (std::size_t n = 0; n + sizeof(T) <= bytes.size(); n += sizeof(T))
-        to.push_back(static_cast<float>(loadBytes<T>(at + n, order)));
+    for (std::size_t n = 0; n + sizeof(Stored) <= bytes.size(); n += sizeof(Stored))
+        to.push_back(static_cast<Number>(loadBytes<Stored>(at + n, order)));
 }
 
-}  // namespace
-
-std::uint64_t placesOf(const NodePlaces& places) noexcept {
-    return std::uint64_t(places[0].size()) * std::uint64_t(places[1].size()) * std::uint64_t(places[2].size());
-}
-
-void appendSamples(std::string_view bytes, const SampleType& type, std::vector<float>& to) {
+template <class Number>
+void appendAs(std::string_view bytes, const SampleType& type, std::vector<Number>& to) {
     const std::endian order = type.isSwapped ? std::endian::big : std::endian::little;
     to.reserve(to.size() + bytes.size() / static_cast<std::size_t>(type.bytes));
     if (type.kind == 'f') {
@@ -58,6 +53,19 @@ void appendSamples(std::string_view bytes, const SampleType& type, std::vector<f
         default:
             isSigned ? appendNumbers<std::int64_t>(bytes, order, to) : appendNumbers<std::uint64_t>(bytes, order, to);
     }
+}
+
+}  // namespace
+
+std::uint64_t placesOf(const NodePlaces& places) noexcept {
+    return std::uint64_t(places[0].size()) * std::uint64_t(places[1].size()) * std::uint64_t(places[2].size());
+}
+
+void appendSamples(std::string_view bytes, const SampleType& type, std::vector<float>& to) {
+    appendAs(bytes, type, to);
+}
+void appendSamples(std::string_view bytes, const SampleType& type, std::vector<double>& to) {
+    appendAs(bytes, type, to);
 }
 
 Result<fields::Field> fieldOfArray(LatticeArray array, const Reading& reading, Assumptions assumptions) {

@@ -36,7 +36,8 @@ struct SampleType {
     bool isSwapped = false;
 };
 
-/// Appends the samples as floats. \param bytes  a whole number of samples
+/// Appends the samples as numbers of another type. \param bytes  a whole number of samples
 void appendSamples(std::string_view bytes, const SampleType& type, std::vector<float>& to);
+void appendSamples(std::string_view bytes, const SampleType& type, std::vector<double>& to);
 
 }  // namespace svt::field_readers

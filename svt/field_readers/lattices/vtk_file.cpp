@@ -217,54 +217,6 @@ VtkArray describedArray(pugi::xml_node node, bool isCell) {
 
 }  // namespace
 
-Result<VtkFile> VtkFile::open(const std::filesystem::path& path, std::uint64_t maxBytes) {
-    SVT_TRY(bytes, FileBytes::read(path, maxBytes));
-    auto state = std::make_unique<State>(path, std::move(*bytes));
-    const VtkOpener opener(state->path, state->bytes.text());
-    SVT_DO(opener.split(state->document, state->appended, state->isAppendedRaw));
-    const pugi::xml_node root = state->document.child("VTKFile");
-    const std::string_view type = root.attribute("type").value();
-    if (type != "ImageData" && type != "RectilinearGrid")
-        return opener.bad(fmt::format("the data are of type '{}'; ImageData and RectilinearGrid are read", type));
-    if (std::string_view(root.attribute("byte_order").value()) == "BigEndian")
-        return opener.bad("the file is big-endian; save it as little-endian");
-    const std::string_view compressor = root.attribute("compressor").value();
-    if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
-        return opener.bad(
-            fmt::format("the compressor '{}' is not known; save the file with zlib or without", compressor));
-    state->isCompressed = !compressor.empty();
-    state->headerBytes = std::string_view(root.attribute("header_type").value()) == "UInt64" ? 8 : 4;
-    const pugi::xml_node node = root.child(std::string(type).c_str()), piece = node.child("Piece");
-    std::array<double, 6> extent{};
-    SVT_DO(opener.readExtent(node, piece, extent));
-    VtkFile file(std::move(state));
-    if (type == "ImageData") {
-        SVT_DO(opener.readImage(node, extent, file.state_->nodes, file.state_->frame));
-    } else {
-        std::size_t axis = 0;
-        for (const pugi::xml_node child : piece.child("Coordinates").children("DataArray")) {
-            if (axis == 3) return opener.bad("there are more than three lists of coordinates");
-            const VtkArray list = describedArray(child, false);
-            const auto count = static_cast<std::size_t>(extent[2 * axis + 1] - extent[2 * axis]) + 1;
-            std::vector<float> places;
-            // The number of coordinates is checked as that of a line of nodes.
-            file.state_->nodes = {std::vector<double>(count), std::vector<double>(1), std::vector<double>(1)};
-            SVT_DO(file.read(list, places));
-            file.state_->cells[axis].assign(places.begin(), places.end());
-            for (std::size_t n = 1; n < places.size(); ++n)
-                if (!(places[n] > places[n - 1])) return opener.bad("the coordinates do not ascend");
-            ++axis;
-        }
-        if (axis != 3) return opener.bad("three lists of coordinates are expected");
-        file.state_->nodes = std::exchange(file.state_->cells, {});
-    }
-    setCells(file.state_->nodes, file.state_->cells);
-    for (const bool isCell : {false, true})
-        for (const pugi::xml_node child : piece.child(isCell ? "CellData" : "PointData").children("DataArray"))
-            file.state_->arrays.push_back(describedArray(child, isCell));
-    return file;
-}
-
 namespace {
 
 // Unpacks blocks of zlib; `numbers` has their count, their size, the size of the last, and the packed sizes.
@@ -342,7 +294,8 @@ private:
 
 }  // namespace
 
-Result<void> VtkFile::read(const VtkArray& array, std::vector<float>& to) const {
+template <class Number>
+Result<void> VtkFile::readAs(const VtkArray& array, std::vector<Number>& to) const {
     const auto bad = [&](std::string_view what) {
         return badField(fmt::format("array '{}' {}", array.name, what), state_->path);
     };
@@ -352,7 +305,7 @@ Result<void> VtkFile::read(const VtkArray& array, std::vector<float>& to) const 
     if (array.format == "ascii") {
         const std::size_t before = to.size();
         const bool isGood = forNumbers(array.text, [&](double number) {
-            to.push_back(static_cast<float>(number));
+            to.push_back(static_cast<Number>(number));
             return to.size() - before <= count;
         });
         if (!isGood || to.size() - before != count) return bad("has other values than the lattice has places");
@@ -370,6 +323,57 @@ Result<void> VtkFile::read(const VtkArray& array, std::vector<float>& to) const 
         return bad("is cut short or damaged, or has other values than the lattice has places");
     appendSamples(bytes, array.type, to);
     return {};
+}
+
+Result<void> VtkFile::read(const VtkArray& array, std::vector<float>& to) const { return readAs(array, to); }
+
+Result<VtkFile> VtkFile::open(const std::filesystem::path& path, std::uint64_t maxBytes) {
+    SVT_TRY(bytes, FileBytes::read(path, maxBytes));
+    auto state = std::make_unique<State>(path, std::move(*bytes));
+    const VtkOpener opener(state->path, state->bytes.text());
+    SVT_DO(opener.split(state->document, state->appended, state->isAppendedRaw));
+    const pugi::xml_node root = state->document.child("VTKFile");
+    const std::string_view type = root.attribute("type").value();
+    if (type != "ImageData" && type != "RectilinearGrid")
+        return opener.bad(fmt::format("the data are of type '{}'; ImageData and RectilinearGrid are read", type));
+    if (std::string_view(root.attribute("byte_order").value()) == "BigEndian")
+        return opener.bad("the file is big-endian; save it as little-endian");
+    const std::string_view compressor = root.attribute("compressor").value();
+    if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
+        return opener.bad(
+            fmt::format("the compressor '{}' is not known; save the file with zlib or without", compressor));
+    state->isCompressed = !compressor.empty();
+    state->headerBytes = std::string_view(root.attribute("header_type").value()) == "UInt64" ? 8 : 4;
+    const pugi::xml_node node = root.child(std::string(type).c_str()), piece = node.child("Piece");
+    std::array<double, 6> extent{};
+    SVT_DO(opener.readExtent(node, piece, extent));
+    VtkFile file(std::move(state));
+    if (type == "ImageData") {
+        SVT_DO(opener.readImage(node, extent, file.state_->nodes, file.state_->frame));
+    } else {
+        std::size_t axis = 0;
+        for (const pugi::xml_node child : piece.child("Coordinates").children("DataArray")) {
+            if (axis == 3) return opener.bad("there are more than three lists of coordinates");
+            const VtkArray list = describedArray(child, false);
+            const auto count = static_cast<std::size_t>(extent[2 * axis + 1] - extent[2 * axis]) + 1;
+            // 32-bit floats have steps of half a metre at the coordinates of a projection.
+            std::vector<double> places;
+            // The number of coordinates is checked as that of a line of nodes.
+            file.state_->nodes = {std::vector<double>(count), std::vector<double>(1), std::vector<double>(1)};
+            SVT_DO(file.readAs(list, places));
+            file.state_->cells[axis] = places;
+            for (std::size_t n = 1; n < places.size(); ++n)
+                if (!(places[n] > places[n - 1])) return opener.bad("the coordinates do not ascend");
+            ++axis;
+        }
+        if (axis != 3) return opener.bad("three lists of coordinates are expected");
+        file.state_->nodes = std::exchange(file.state_->cells, {});
+    }
+    setCells(file.state_->nodes, file.state_->cells);
+    for (const bool isCell : {false, true})
+        for (const pugi::xml_node child : piece.child(isCell ? "CellData" : "PointData").children("DataArray"))
+            file.state_->arrays.push_back(describedArray(child, isCell));
+    return file;
 }
 
 }  // namespace svt::field_readers

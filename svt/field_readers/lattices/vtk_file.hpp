@@ -48,6 +48,8 @@ public:
 
 private:
     struct State;
+    template <class Number>
+    [[nodiscard]] Result<void> readAs(const VtkArray& array, std::vector<Number>& to) const;
     explicit VtkFile(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };

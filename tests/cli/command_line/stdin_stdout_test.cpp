@@ -108,6 +108,12 @@ const std::vector<Written>& writtenByCommands() {
         {"field add two.svt co2.csv --places places.csv --unit [ppm] -o OUT", ".svt", ""},
         {"field remove field.svt co2 -o OUT", ".svt", ""},
         {"simulate heat tower.svt --leaky -q -o OUT", ".svt", ""},
+        {"field export field.svt co2 -o OUT", ".csv", "csv"},
+        {"field export field.svt co2 -o OUT", ".json", "json"},
+        {"field export field.svt co2 -o OUT", ".parquet", "objectparquet"},
+        {"field export warm.svt temperature -o OUT", ".vti", "vti"},
+        {"field export warm.svt temperature -o OUT", ".vtr", "vtr"},
+        {"field export warm.svt temperature -o OUT", ".nrrd", "nrrd"},
         {"field stats field.svt co2 -o OUT", ".csv", "csv"},
         {"field stats field.svt co2 -o OUT", ".json", "json"},
         {"field stats field.svt co2 -o OUT", ".parquet", "objectparquet"},
@@ -133,7 +139,7 @@ TEST_F(Dash, IsStdoutForEveryCommandWithOneOutput) {
     runLineWell(folder.path(), "svt city plan two.gml -o town --spacing 1 -q && svt city run town -q");
     runLineWell(folder.path(),
                 "svt sample tower --storeys 1 -o tower.gml && svt build tower.gml -o tower.svt --spacing 1 -q && "
-                "svt sample house -o small.ifc");
+                "svt simulate heat tower.svt --leaky -q -o warm.svt && svt sample house -o small.ifc");
     writeText(folder / "co2.csv", "time,sensor,value\n0,s1,400\n900,s1,500\n");
     writeText(folder / "places.csv", "name,x,y,z\ns1,500002,5400003,101\n");
     runLineWell(

@@ -1,9 +1,11 @@
-// svt field list, stats, probe and remove.
+// svt field list, stats, probe, export and remove.
 #include <tests/cli/run_command.hpp>
 
 #include <svt/core/temporary_folder_test.hpp>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace svt::test {
 namespace {
@@ -94,6 +96,42 @@ TEST_F(FieldCommand, ProbesAPlace) {
     const json outside = rows({"field-probe", "warm", "--at=-1000,0,0"});
     EXPECT_TRUE(outside[0]["value"].is_null());
     EXPECT_TRUE(outside[0]["id"].is_null());
+}
+
+TEST_F(FieldCommand, ExportsValuesAsATable) {
+    runSvtWell(folder.path(), {"field-export", "house.svt", "warm", "-o", "all.json", "-q"});
+    const json all = json::parse(readText(folder / "all.json"));
+    ASSERT_EQ(all.size(), 5u) << "the last value of s2 is missing";
+    EXPECT_EQ(all[1]["id"], "s2");
+    EXPECT_EQ(all[1]["time"], 0);
+    EXPECT_EQ(all[1]["value"], 24);
+    EXPECT_TRUE(all[1]["x"].is_number());
+    runSvtWell(folder.path(), {"field-export", "house.svt", "warm", "--time", "7200", "-o", "last.csv", "-q"});
+    const std::string last = readText(folder / "last.csv");
+    EXPECT_EQ(last.substr(0, last.find('\n')), "id,x,y,z,time,value\r");
+    EXPECT_EQ(std::count(last.begin(), last.end(), '\n'), 2);
+}
+
+TEST_F(FieldCommand, ExportsALatticeThatComesBackAtTheSamePlaces) {
+    runSvtWell(folder.path(), {"simulate-heat", "house.svt", "--leaky", "-q", "-o", "heat.svt"});
+    const std::vector<std::string> probe{"field-probe", "heat.svt", "temperature", "--at", "500000.15,5400002.4,101.2",
+                                         "--json"};
+    const double before = runSvtForJson(folder.path(), probe)[0].at("value");
+    for (const char* name : {"t.vti", "t.vtr", "t.nrrd"}) {
+        runSvtWell(folder.path(), {"field-export", "heat.svt", "temperature", "-o", name, "-q"});
+        runSvtWell(folder.path(), {"field-add", "plain.svt", name, "--unit", "Cel", "--name", "temperature",
+                                   "--replace", "-o", "heat.svt", "-q"});
+        EXPECT_NEAR(runSvtForJson(folder.path(), probe)[0].at("value").get<double>(), before, 1e-3) << name;
+    }
+}
+
+TEST_F(FieldCommand, ExportNamesTheRemedy) {
+    expectError({"field-export", "house.svt", "warm", "-o", "w.vti"}, kUsage,
+                "the field 'warm' has values of points, and .vti holds those of a lattice; write a .csv, .json or "
+                ".parquet");
+    expectError({"field-export", "house.svt", "warm", "--time", "5", "-o", "w.csv"}, kUsage,
+                "the field 'warm' has no values at 5 s; it has 3 times from 0 to 7200 s");
+    EXPECT_FALSE(std::filesystem::exists(folder / "w.vti") || std::filesystem::exists(folder / "w.csv"));
 }
 
 TEST_F(FieldCommand, RemovingRestoresTheFile) {

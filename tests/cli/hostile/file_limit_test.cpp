@@ -70,6 +70,12 @@ const LimitedOutput kLimitedOutputs[] = {
     {"--output", {"field-add", "two.svt", "co2.csv", "--places", "places.csv", "--unit", "[ppm]", "-o", "o.svt"}},
     {"--output", {"field-remove", "field.svt", "co2", "-o", "o.svt"}},
     {"--output", {"simulate-heat", "tower.svt", "--leaky", "-o", "o.svt"}},
+    {"--output", {"field-export", "field.svt", "co2", "-o", "o.csv"}},
+    {"--output", {"field-export", "field.svt", "co2", "-o", "o.json"}},
+    {"--output", {"field-export", "field.svt", "co2", "-o", "o.parquet"}},
+    {"--output", {"field-export", "warm.svt", "temperature", "-o", "o.vti"}},
+    {"--output", {"field-export", "warm.svt", "temperature", "-o", "o.vtr"}},
+    {"--output", {"field-export", "warm.svt", "temperature", "-o", "o.nrrd"}},
     {"--output", {"field-stats", "field.svt", "co2", "-o", "o.csv"}},
     {"--output", {"field-stats", "field.svt", "co2", "-o", "o.json"}},
     {"--output", {"field-stats", "field.svt", "co2", "-o", "o.parquet"}},
@@ -96,6 +102,7 @@ protected:
         runSvtWell(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "0.5"});
         runSvtWell(folder.path(), {"sample", "tower", "--storeys", "1", "-o", "tower.gml"});
         runSvtWell(folder.path(), {"build", "tower.gml", "-o", "tower.svt", "--spacing", "1"});
+        runSvtWell(folder.path(), {"simulate-heat", "tower.svt", "--leaky", "-q", "-o", "warm.svt"});
         runSvtWell(folder.path(), {"sample", "house", "-o", "small.ifc"});
         writeText(folder / "co2.csv", "time,sensor,value\n0,s1,400\n900,s1,500\n");
         writeText(folder / "places.csv", "name,x,y,z\ns1,500002,5400003,101\n");
