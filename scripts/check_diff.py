@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares `svt diff` with the known answers of `svt sample house --change SEED`, and prints a table by kind of edit.
 
-    scripts/check_diff.py --svt build/release/bin/svt [--seeds 200] [--first 0]
+    scripts/check_diff.py --svt build/release/bin/svt [--format ifc] [--seeds 200] [--first 0]
 
 Exit code 1 if an edit is missed, if a row is false, or if a volume is off by more than 0.1 % of the known one.
 """
@@ -17,6 +17,7 @@ from pathlib import Path
 
 LARGEST_SHARE = 0.001  # of the known volume by which a reported volume may be off
 LARGEST_VECTOR_ERROR = 1e-5  # metres
+ENDINGS = {"citygml3": ".gml", "cityjson": ".json", "ifc": ".ifc"}  # of files, by format of `svt sample`
 
 
 def run(svt, arguments, allowed=(0,)):
@@ -79,14 +80,16 @@ def main():
     parser.add_argument("--seeds", type=int, default=200)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--spacing", default="0.3")
+    parser.add_argument("--format", default="citygml3", choices=sorted(ENDINGS))
     arguments = parser.parse_args()
     counts: defaultdict[str, int] = defaultdict(int)
     worst: defaultdict[str, float] = defaultdict(float)
     bad = []
     begin = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
-        old, new, answer = (str(Path(folder) / name) for name in ("old.gml", "new.gml", "answer.json"))
-        sample = ["sample", "house", "-q"]
+        ending = ENDINGS[arguments.format]
+        old, new, answer = (str(Path(folder) / name) for name in ("old" + ending, "new" + ending, "answer"))
+        sample = ["sample", "house", "-q", "--format", arguments.format]
         run(arguments.svt, [*sample, "-o", old])
         run(
             arguments.svt,

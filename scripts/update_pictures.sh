@@ -35,9 +35,15 @@ draw plan_names sample plan_with_names 900x640
 $svt render "$work/sample.svt" --scene examples/scenes/film.scene.json -o docs/images/film.webp
 $svt build "$work/plan/house.gml" -o "$work/fine.svt" --spacing 0.03
 $svt render "$work/fine.svt" --scene examples/scenes/section_moving.scene.json -o docs/images/section_moving.webp
+$svt render "$work/fine.svt" -o docs/images/quantities_walls.png --size 900x560 --look paper \
+  --show 'class=BuildingConstructiveElement and storey="Ground floor"' --hide 'name~"Intermediate slab"' \
+  --color 'name~"^Exterior wall":#d9a441' --color 'name~"^(Spine|Wall)":#6aa0c8'
 $svt section "$work/sample.svt" -o docs/images/section.svg
 $svt section "$work/sample.svt" -o docs/images/section_beyond.svg --plane 'x>5' --beyond
 $svt section "$work/sample.svt" -o docs/images/plan_dimensions.svg --dimensions
+$svt sample house -o "$work/after.gml" --change 6 --change-list "$work/known.json"
+$svt diff "$work/plan/house.gml" "$work/after.gml" --spacing 0.2 --tolerance 0.002 --properties none -q -o "$work/changes.svt" || [ $? -eq 7 ]
+$svt section "$work/changes.svt" -o docs/images/revisions.svg --revisions --plane 'storey=Ground floor+1.2' --beyond
 $svt sample house --format ifc -o "$work/house.ifc"
 $svt section "$work/house.ifc" -o docs/images/plan_doors.svg --plane z=1.5 --beyond --dimensions
 sheet() { # picture, number of the sheet, model, options

@@ -178,6 +178,25 @@ struct DoorSwing {
     std::vector<std::vector<PlanePoint>> lines;  ///< open leaves, arrows
     std::vector<Arc> arcs;
 };
+/// A change of an object between two states of the model, as a table of revisions lists it.
+struct Revision {
+    std::uint32_t number = 0;  ///< from 1; 0: no drawing shows it
+    std::string change;        ///< nameOf() its compare::Change, such as "moved"
+    std::string object;        ///< name, otherwise id
+    std::string className;
+    std::string storey;                    ///< name; empty without one
+    std::optional<double> added, removed;  ///< m3; empty: unknown
+    friend bool operator==(const Revision&, const Revision&) = default;
+};
+/// The lines of a drawing that a change added or removed.
+struct RevisionLines {
+    struct Line {
+        PlanePoint from, to;
+    };
+    Revision revision;
+    std::vector<Line> added;    ///< lines of this drawing
+    std::vector<Line> removed;  ///< lines that only a drawing of the old state has
+};
 /// The points of an arc as 12 chords.
 [[nodiscard]] std::vector<PlanePoint> pointsOf(const DoorSwing::Arc& arc);
 
@@ -217,6 +236,8 @@ struct SectionDrawing {
     /// The hatches of all labels, if the drawing needed them or SectionOptions::tables were given; null: see
     /// labelHatches(). Drawings of one set share them.
     std::shared_ptr<const std::vector<render::Hatch>> hatches{};
+    /// Changes since an old state, by number: see compare/revisions.hpp. Pictures enclose them by revision clouds.
+    std::vector<RevisionLines> revisions{};
 };
 
 /// The kinds of lines beyond the cut to draw. They come from the meshes that the volume stores, not from voxels.

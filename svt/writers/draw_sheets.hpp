@@ -17,9 +17,11 @@ namespace svt::writers {
 /// \param set      if it has no sheets, chooseSheetViews() adds them
 /// \param threads  0: all cores; the result does not depend on it
 /// \param nothing  if given, receives the queries of the set that select nothing
+/// \param before   an old state, which is drawn by the planes of the views, too; see SheetContent::before
 /// \return the content of the sheets, or an error of viewsOfSet(), chooseSheetViews(), drawSection() or
 ///         measureFloorAreas()
 [[nodiscard]] Result<SheetContent> drawSheets(drawing::SheetSet& set, const volume::SemanticVolume& volume,
-                                              int threads = 0, std::vector<std::string>* nothing = nullptr);
+                                              int threads = 0, std::vector<std::string>* nothing = nullptr,
+                                              const volume::SemanticVolume* before = nullptr);
 
 }  // namespace svt::writers

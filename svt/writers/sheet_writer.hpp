@@ -28,6 +28,16 @@
 
 namespace svt::writers {
 
+#ifdef __EMSCRIPTEN__
+/// Whether drawings show revisions: clouds, numbers and lists. The module of the page leaves out this code to stay small.
+inline constexpr bool kDrawsRevisions = false;
+#else
+inline constexpr bool kDrawsRevisions = true;
+#endif
+[[nodiscard]] inline bool hasRevisions(const drawing::SectionDrawing& drawing) noexcept {
+    return kDrawsRevisions && !drawing.revisions.empty();
+}
+
 /// A view and its drawing.
 struct DrawnView {
     drawing::SheetView view;
@@ -68,6 +78,9 @@ struct SheetContent {
     std::optional<drawing::OpeningSchedule> openings{};  ///< plans have its marks
     /// Plans have their lines of travel; without a value, they are found for each plan.
     std::optional<std::vector<drawing::StairFlight>> stairs{};
+    /// The old state by the planes of the views, without dimensions; empty if there is no old state.
+    std::vector<drawing::SectionDrawing> before{};
+    std::vector<drawing::Revision> revisions{};  ///< of all views, see compare::markRevisions(); a list on each sheet
     bool hasGrids = false;  ///< plans have the names of the axes of grids outside of their dimensions
 };
 
@@ -90,6 +103,9 @@ struct SheetOptions {
 [[nodiscard]] std::vector<SheetTable> makeOpeningTables(const drawing::OpeningSchedule& openings,
                                                         const std::vector<drawing::BuildingLevel>& levels,
                                                         SheetLanguage language);
+
+/// The table of all revisions; without rows if there are none. Those without a number are on no view.
+[[nodiscard]] SheetTable makeRevisionTable(const std::vector<drawing::Revision>& revisions, SheetLanguage language);
 
 /// The sheets as SVG documents, in order. Each has stamps and marks, a title block after ISO 7200 and a legend. `volume` is the volume from which the drawings were made. Equal drawings give
 /// equal bytes.

@@ -12,6 +12,7 @@
 
 #include <svt/compare/comparison.hpp>
 #include <svt/compare/difference_volume.hpp>
+#include <svt/compare/states_file.hpp>
 #include <svt/core/file.hpp>
 #include <svt/volume/svt_file.hpp>
 
@@ -94,21 +95,13 @@ Result<Vec3d> align(const DiffArguments& arguments, const volume::SemanticVolume
     return -*offset;
 }
 
-Box3d boxOf(const volume::Grid& grid) {
-    Box3d box;
-    const Vec3d last = toDouble(grid.dimension() - Vec3i{1, 1, 1});
-    for (int corner = 0; corner < 8; ++corner)
-        box.add(grid.worldFromIndex({corner & 1 ? last.x : 0.0, corner & 2 ? last.y : 0.0, corner & 4 ? last.z : 0.0}));
-    return box;
-}
-
 void printNotes(const Compared& compared) {
     if (compared.comparison.isReferenceSystemUnknown)
         note("the reference system of a model is unknown; the coordinates are compared as they are");
     const auto withoutFaces = [](const volume::SemanticVolume& volume) { return volume.vectors.triangles.empty(); };
     if (withoutFaces(compared.was) || withoutFaces(compared.is))
         note("a volume has no meshes, so voxels decide; build it with --vectors meshes for exact volumes");
-    if (!boxOf(compared.was.grid).overlaps(boxOf(compared.is.grid)))
+    if (!compare::overlapInSpace(compared.was.grid, compared.is.grid))
         note("the models do not overlap in space; to compare them at one place, use --align translation");
     if (!compared.comparison.isOnOneLattice)
         note(
@@ -170,7 +163,8 @@ Result<void> writeOutput(const std::filesystem::path& output, const Compared& co
     if (ending == ".svt") {
         const auto& volume = difference.volume();
         if (!volume) return volume.error();
-        SVT_DO(volume::writeSvt(*volume, output));
+        SVT_DO(compare::writeDifference(*volume, compared.was, compared.is, compared.comparison,
+                                        compared.options.tolerance, compared.shift, output));
     } else if (ending == ".csv") {
         SVT_DO(writeFileAtomically(output, writers::makeCsv(comparisonTable(compared, true))));
     } else if (ending == ".html") {
@@ -182,8 +176,7 @@ Result<void> writeOutput(const std::filesystem::path& output, const Compared& co
     } else if (ending == ".bcf") {
         SVT_DO(writeTopics(output, compared, difference));
     } else {
-        SVT_DO(writeFileAtomically(
-            output, comparisonJson(compared).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"));
+        SVT_DO(writeFileAtomically(output, comparisonFile(compared)));
     }
     return {};
 }

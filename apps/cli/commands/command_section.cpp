@@ -11,12 +11,15 @@
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/city/city_walk.hpp>
+#include <svt/compare/revisions.hpp>
+#include <svt/compare/states_file.hpp>
 #include <svt/core/file.hpp>
 #include <svt/drawing/building_levels.hpp>
 #include <svt/drawing/external_parts.hpp>
 #include <svt/drawing/field_drawing.hpp>
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/fields/field.hpp>
+#include <svt/volume/svt_file.hpp>
 #include <svt/writers/drawing_formats.hpp>
 #include <svt/writers/section_table.hpp>
 #include <svt/writers/sheet_writer.hpp>
@@ -39,7 +42,7 @@ struct SectionArguments {
     std::string field;
     drawing::FieldDrawingOptions fieldDrawing;
     image::ColorMap map = image::ColorMap::Viridis;
-    bool json = false, verbose = false;
+    bool revisions = false, json = false, verbose = false;
     pipeline::BuildOptions build;
 
     SectionArguments() { section.smallestArea = 1e-4; }
@@ -157,6 +160,43 @@ Result<std::optional<drawing::FieldDrawing>> drawnField(const SectionArguments& 
     return std::optional(std::move(*drawn));
 }
 
+// The two states of a difference volume, if their revisions are requested.
+Result<std::optional<compare::ComparedStates>> readRevised(const SectionArguments& arguments) {
+    if (!arguments.revisions) return std::optional<compare::ComparedStates>{};
+    if (!arguments.field.empty())
+        return Error(Code::BadArgument, "--revisions and --field exclude each other; draw one of them");
+    if (volume::isSvtFile(arguments.input)) {
+        if (!writers::kDrawsRevisions)
+            return Error(Code::BadArgument,
+                         "--revisions: the command for Node.js draws no revisions; use the native svt");
+        SVT_TRY(states, compare::readStates(arguments.input));
+        if (*states) return states;
+    }
+    return Error(Code::BadArgument,
+                 "--revisions: '" + arguments.input.string() +
+                     "' does not compare two states; svt diff OLD NEW -o CHANGES.svt writes such a file");
+}
+
+// Marks the changes since the old state.
+Result<void> markSectionRevisions(const SectionArguments& arguments, const compare::ComparedStates& states,
+                                  const volume::SemanticVolume& volume, drawing::SectionDrawing& drawing) {
+    std::vector<std::string> ignored;  // results of queries that only the new state has
+    drawing::SectionOptions options = optionsOf(arguments, ignored);
+    options.dimensions = options.doorSwings = false;
+    SVT_TRY(before, drawing::drawSection(states.was, drawing.plane, options));
+    drawing::SectionDrawing* const drawings[] = {&drawing};
+    const std::vector<drawing::Revision> revisions = compare::markRevisions(
+        {states.was, volume, states.comparison, states.tolerance}, std::span(&*before, 1), drawings);
+    note(fmt::format("the drawing shows the new state with {} of {} revisions", drawing.revisions.size(),
+                     revisions.size()));
+    for (const auto& paths : {arguments.outputs, arguments.tables})
+        for (const std::filesystem::path& path : paths)
+            if (const std::string ending = endingOf(path);
+                ending == ".geojson" || ending == ".csv" || ending == ".json")
+                note(fmt::format("{} has no revisions; .svg, .pdf and .dxf have them", shownText(path.string())));
+    return {};
+}
+
 Result<int> runSection(const SectionArguments& arguments) {
     if (arguments.outputs.empty() && arguments.tables.empty() && !arguments.json)
         return Error(Code::BadArgument, "nothing to write; give -o D.svg, --table T.csv or --json");
@@ -165,7 +205,11 @@ Result<int> runSection(const SectionArguments& arguments) {
     const TerminalProgress progress;
     pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
-    SVT_TRY(volume, loadVolume(arguments.input, build, progress.get(), arguments.verbose));
+    SVT_TRY(states, readRevised(arguments));
+    Result<volume::SemanticVolume> volume = *states
+                                                ? Result<volume::SemanticVolume>(std::move((*states)->is))
+                                                : loadVolume(arguments.input, build, progress.get(), arguments.verbose);
+    SVT_DO(volume);
     SVT_TRY(hatches, readHatches(arguments.materials, volume->labels));
     SVT_TRY(plane, planeOf(arguments, *volume));
     if (plane->bound > 0)
@@ -176,11 +220,13 @@ Result<int> runSection(const SectionArguments& arguments) {
     std::vector<std::string> nothing;
     Progress::tell(progress.get(), "section", 0);
     SVT_TRY(drawing, drawing::drawSection(*volume, *plane, optionsOf(arguments, nothing)));
+    if (*states) SVT_DO(markSectionRevisions(arguments, **states, *volume, *drawing));
     SVT_TRY(field, drawnField(arguments, *drawing, *volume));
     return writeSection(arguments, *drawing, *volume, *hatches, nothing,
                         {field->has_value() ? &**field : nullptr, image::mapColors(arguments.map)});
 }
 
+// NOLINTNEXTLINE(readability-function-size): a list
 Members<SectionArguments> membersOf(const SectionArguments*) noexcept {
     using All = SectionArguments;
     static constexpr Member<All> kMembers[] = {
@@ -202,6 +248,11 @@ Members<SectionArguments> membersOf(const SectionArguments*) noexcept {
              .group = "Drawing",
              .isForProjects = true}),
         part<&All::section>("section", "--beyond|--hidden|--above|--dimensions|--dimension-unit"),
+        member<&All::revisions>(
+            "--revisions",
+            "a .svt of svt diff: draw its new state, with clouds around the changes, dashed removed parts, "
+            "and a table",
+            {.group = "Drawing"}),
         part<&All::dxf>("dxf"),
         memberAs<PaperScale, &All::scale>("--scale", "scale of the SVG: 1:50 draws 1 m as 20 mm",
                                           {.value = "1:N", .group = "Drawing", .isForProjects = true}),

@@ -8,6 +8,8 @@
 #include <apps/cli/output/pdf_notes.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
+#include <svt/compare/revisions.hpp>
+#include <svt/compare/states_file.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/core/text.hpp>
@@ -192,19 +194,50 @@ struct DrawnSet {
     std::vector<std::string> nothing;  // queries that select nothing
 };
 
-Result<DrawnSet> drawSet(const SheetsArguments& arguments, volume::SemanticVolume volume, const Progress* progress) {
+// Marks the changes since the old state in all views, and lists them.
+void markSheetRevisions(const compare::ComparedStates& states, DrawnSet& drawn) {
+    writers::SheetContent& content = drawn.content;
+    std::vector<drawing::SectionDrawing*> drawings;
+    for (writers::DrawnView& view : content.views) drawings.push_back(&view.drawing);
+    content.revisions = compare::markRevisions({states.was, drawn.volume, states.comparison, states.tolerance},
+                                               content.before, drawings);
+    content.before.clear();
+    const auto shown = std::count_if(content.revisions.begin(), content.revisions.end(),
+                                     [](const drawing::Revision& revision) { return revision.number != 0; });
+    const std::size_t others = content.revisions.size() - std::size_t(shown);
+    note(fmt::format("the volume compares two states; the sheets show the new one with {} revisions{}", shown,
+                     others > 0 ? fmt::format(", and the table lists {} changes that no view shows", others) : ""));
+    if (!content.revisions.empty())
+        content.tables.insert(
+            content.tables.begin(),
+            writers::makeRevisionTable(content.revisions, writers::sheetOptionsOf(drawn.set).language));
+}
+
+Result<DrawnSet> drawSet(const SheetsArguments& arguments, volume::SemanticVolume volume, const Progress* progress,
+                         const compare::ComparedStates* states = nullptr) {
     SVT_TRY(set, readSet(arguments));
     DrawnSet drawn{std::move(*set), std::move(volume), {}, {}, {}};
     SVT_TRY(hatches, readHatches(arguments.materials, drawn.volume.labels));
     drawn.hatches = std::move(*hatches);
     Progress::tell(progress, "sheets", 0);
-    SVT_TRY(content, writers::drawSheets(drawn.set, drawn.volume, arguments.build.threads, &drawn.nothing));
+    SVT_TRY(content, writers::drawSheets(drawn.set, drawn.volume, arguments.build.threads, &drawn.nothing,
+                                         states != nullptr ? &states->was : nullptr));
     drawn.content = std::move(*content);
+    if (states != nullptr) markSheetRevisions(*states, drawn);
     return drawn;
 }
 
 // A building that is turned against the axes of its CRS is drawn along its walls. A volume keeps its grid.
 Result<DrawnSet> loadSet(const SheetsArguments& arguments, const Progress* progress) {
+    if (volume::isSvtFile(arguments.input)) {
+        SVT_TRY(states, compare::readStates(arguments.input));
+        if (*states && !writers::kDrawsRevisions)
+            return Error(
+                Code::BadArgument,
+                "the file compares two states, and the command for Node.js draws no revisions; use the native svt",
+                {arguments.input.string(), 0, 0, {}});
+        if (*states) return drawSet(arguments, std::move((*states)->is), progress, &**states);
+    }
     pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
     SVT_TRY(volume, loadVolume(arguments.input, build, progress, arguments.verbose));
@@ -279,6 +312,7 @@ Result<int> runSheets(const SheetsArguments& arguments) {
     return kDone;
 }
 
+// NOLINTNEXTLINE(readability-function-size): a list
 Members<SheetsArguments> membersOf(const SheetsArguments*) noexcept {
     using All = SheetsArguments;
     using drawing::TitleBlock;

@@ -1,12 +1,12 @@
 #pragma once
 /// \file
-/// A comparison of two volumes as a table and as JSON.
+/// A comparison of two volumes as a table, and its JSON.
 
 #include <apps/cli/diff/compared.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/table.hpp>
 
-#include <span>
+#include <svt/frontend/comparison_json.hpp>
 
 namespace svt::cli {
 
@@ -15,11 +15,6 @@ namespace svt::cli {
 /// \param mostProperties  maximum number of names in the column of other properties; further ones are counted
 [[nodiscard]] Table comparisonTable(const Compared& compared, bool hasAll, std::size_t mostProperties = 1000);
 
-/// rows and summary, see docs/user/json.md.
-[[nodiscard]] Json comparisonJson(const Compared& compared);
-
-/// Parts of this JSON: the rows, and the sums of the classes. \param hasAll  false: only rows that differ
-[[nodiscard]] Json rowsJson(const Compared& compared, bool hasAll);
-[[nodiscard]] Json classesJson(std::span<const ClassSums> classes);
+using frontend::classesJson, frontend::comparisonFile, frontend::comparisonJson, frontend::rowsJson;
 
 }  // namespace svt::cli

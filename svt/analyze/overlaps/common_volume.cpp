@@ -8,14 +8,16 @@ namespace svt::analyze {
 namespace {
 
 struct PlanPoint {
-    double x = 0, y = 0;
+    double x, y;
 };
 
 // A convex polygon seen from above. Each of four lines adds a corner; if rounding bends a side, up to half as many
 // again.
 struct PlanPolygon {
-    std::array<PlanPoint, 20> points;
+    std::array<PlanPoint, 20> points;  // not set beyond `count`
     std::size_t count = 0;
+
+    PlanPolygon() {}  // NOLINT(modernize-use-equals-default): leaves the points as they are, which `{}` would clear
 
     void add(PlanPoint p) { points[count++] = p; }
 };
@@ -47,8 +49,34 @@ double integral(const PlanPolygon& polygon, const ValueAt& valueAt) {
     return sum / 6;
 }
 
+// Whether the whole of `a` lies beyond an edge of `b`: clipping would leave nothing.
+bool isBesideEdge(const RoofTriangle& a, const RoofTriangle& b) noexcept {
+    for (std::size_t n = 0; n < 3; ++n) {
+        const Vec3d p = b.corners[n], way = b.corners[(n + 1) % 3] - p;
+        const auto isBeyond = [&](const Vec3d& q) { return way.x * (q.y - p.y) - way.y * (q.x - p.x) < 0; };
+        if (isBeyond(a.corners[0]) && isBeyond(a.corners[1]) && isBeyond(a.corners[2])) return true;
+    }
+    return false;
+}
+
+// RoofTriangle::heightAt() for many points.
+struct Roof {
+    const RoofTriangle& triangle;
+    double low, high;
+
+    explicit Roof(const RoofTriangle& of) noexcept : triangle(of) {
+        std::tie(low, high) = std::minmax({of.corners[0].z, of.corners[1].z, of.corners[2].z});
+    }
+    [[nodiscard]] double heightAt(PlanPoint p) const noexcept {
+        const Vec3d& corner = triangle.corners[0];
+        return std::clamp(corner.z + triangle.slopeX * (p.x - corner.x) + triangle.slopeY * (p.y - corner.y), low,
+                          high);
+    }
+};
+
 // The volume over the ground that lies below both triangles.
 double commonPrism(const RoofTriangle& a, const RoofTriangle& b, double ground) {
+    if (isBesideEdge(a, b)) return 0;
     PlanPolygon polygon;
     for (const Vec3d& corner : a.corners) polygon.add({corner.x, corner.y});
     for (std::size_t n = 0; n < 3 && polygon.count >= 3; ++n) {
@@ -56,9 +84,9 @@ double commonPrism(const RoofTriangle& a, const RoofTriangle& b, double ground) 
         polygon = clipped(polygon, [&](PlanPoint q) { return way.x * (q.y - p.y) - way.y * (q.x - p.x); });
     }
     if (polygon.count < 3) return 0;
-    const auto below = [](PlanPoint p, const RoofTriangle& roof) { return roof.heightAt(p.x, p.y); };
-    const auto aOverB = [&](PlanPoint p) { return below(p, a) - below(p, b); };
-    const double underA = integral(polygon, [&](PlanPoint p) { return below(p, a) - ground; });
+    const Roof roofA(a), roofB(b);
+    const auto aOverB = [&](PlanPoint p) { return roofA.heightAt(p) - roofB.heightAt(p); };
+    const double underA = integral(polygon, [&](PlanPoint p) { return roofA.heightAt(p) - ground; });
     const PlanPolygon lower = clipped(polygon, aOverB);
     return lower.count < 3 ? underA : underA - integral(lower, aOverB);
 }

@@ -117,8 +117,9 @@ private:
             if (hasGeometryOfWas[l] == 0 && pairs.isOfWas[l] == volume::kNoLabel) addGroup(l, volume::kNoLabel);
         const auto wasStoreys = drawing::storeysOfLabels(was_.labels), isStoreys = drawing::storeysOfLabels(is_.labels);
         if (options_.properties == Properties::None) return;
+        FeatureIds wasIds(was_.labels), isIds(is_.labels);
         for (ComparisonRow& row : comparison_.rows) {
-            compareProperties(was_, is_, pairs, wasStoreys, isStoreys, row);
+            compareProperties(was_, is_, pairs, wasStoreys, isStoreys, wasIds, isIds, row);
             if (options_.properties == Properties::Names) row.attributes.clear();
         }
     }

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <tuple>
 #include <utility>
+#include <variant>
 
 namespace svt::compare {
 namespace {
@@ -43,7 +44,22 @@ std::vector<AttributeChange> changesOf(const std::vector<Attribute>& was, const 
     return changes;
 }
 
+// The text of an attribute with one value; null for other values.
+const std::string* singleText(const std::optional<AttributeList>& list) {
+    return list && list->isSingle() ? std::get_if<std::string>(&list->items.front().attribute->value) : nullptr;
+}
+
 }  // namespace
+
+std::uint32_t FeatureIds::find(std::string_view id) {
+    if (!isFilled_)
+        for (std::uint32_t l = 0; l < table_.labels.size(); ++l)
+            if (const auto [at, isNew] = labels_.try_emplace(table_.labels[l].id, l); !isNew)
+                at->second = volume::kNoLabel;
+    isFilled_ = true;
+    const auto at = labels_.find(id);
+    return at == labels_.end() ? volume::kNoLabel : at->second;
+}
 
 void matchGroups(const volume::SemanticVolume& was, const volume::SemanticVolume& is,
                  const std::vector<char>& hasGeometryOfWas, const std::vector<char>& hasGeometryOfIs,
@@ -64,7 +80,7 @@ void matchGroups(const volume::SemanticVolume& was, const volume::SemanticVolume
 
 void compareProperties(const volume::SemanticVolume& was, const volume::SemanticVolume& is, const FeaturePairs& pairs,
                        const std::vector<std::uint32_t>& wasStoreys, const std::vector<std::uint32_t>& isStoreys,
-                       ComparisonRow& row) {
+                       FeatureIds& wasIds, FeatureIds& isIds, ComparisonRow& row) {
     if (row.was.size() != 1 || row.is.size() != 1) return;
     const volume::Label &a = was.labels.labels[row.was[0]], &b = is.labels.labels[row.is[0]];
     row.hasOtherId = a.id != b.id;
@@ -74,6 +90,12 @@ void compareProperties(const volume::SemanticVolume& was, const volume::Semantic
     const std::uint32_t expected = before == volume::kNoLabel ? volume::kNoLabel : pairs.isOfWas[before];
     row.hasOtherStorey = expected != after || (before == volume::kNoLabel) != (after == volume::kNoLabel);
     row.attributes = changesOf(a.attributes, b.attributes);
+    std::erase_if(row.attributes, [&](const AttributeChange& change) {
+        const std::string *before = singleText(change.was), *after = singleText(change.is);
+        if (before == nullptr || after == nullptr) return false;
+        const std::uint32_t old = wasIds.find(*before), now = isIds.find(*after);
+        return old != volume::kNoLabel && now != volume::kNoLabel && pairs.isOfWas[old] == now;
+    });
 }
 
 }  // namespace svt::compare

@@ -5,6 +5,8 @@
 #include <svt/compare/comparison.hpp>
 
 #include <cstdint>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -15,6 +17,19 @@ struct FeaturePairs {
     std::vector<std::uint32_t> isOfWas, wasOfIs;
 };
 
+/// The features of a volume by id, found at the first question. Ids that occur twice belong to none.
+class FeatureIds {
+public:
+    /// \param table  must outlive the object
+    explicit FeatureIds(const volume::LabelTable& table) : table_(table) {}
+    [[nodiscard]] std::uint32_t find(std::string_view id);
+
+private:
+    const volume::LabelTable& table_;
+    bool isFilled_ = false;
+    std::unordered_map<std::string_view, std::uint32_t> labels_;
+};
+
 /// Completes the pairs by features without geometry, such as storeys: by id, then by class and name where these are
 /// unique.
 /// \param hasGeometryOfWas, hasGeometryOfIs  by label: the feature has been matched, or has no partner
@@ -23,10 +38,10 @@ void matchGroups(const volume::SemanticVolume& was, const volume::SemanticVolume
                  FeaturePairs& pairs);
 
 /// Compares the properties of the one old and the one new feature of `row`. Two storeys are the same one if matchGroups()
-/// paired them.
+/// paired them. An attribute whose two values are the ids of one pair is the same reference.
 /// \param wasStoreys, isStoreys  by label, see drawing::storeysOfLabels()
 void compareProperties(const volume::SemanticVolume& was, const volume::SemanticVolume& is, const FeaturePairs& pairs,
                        const std::vector<std::uint32_t>& wasStoreys, const std::vector<std::uint32_t>& isStoreys,
-                       ComparisonRow& row);
+                       FeatureIds& wasIds, FeatureIds& isIds, ComparisonRow& row);
 
 }  // namespace svt::compare

@@ -68,9 +68,13 @@ std::uint32_t FaceTree::build(std::uint32_t first, std::uint32_t count) {
     return number;
 }
 
-double FaceTree::distanceTo(Vec3d point, double enough) const {
+double FaceTree::distanceTo(Vec3d point, double enough, Hint& hint) const {
     if (nodes_.empty()) return kInfinity;
-    double nearest = kInfinity;
+    const auto distanceOf = [&](std::uint32_t t) {
+        return distanceToTriangle(point, triangles_[t][0], triangles_[t][1], triangles_[t][2]);
+    };
+    hint.triangle = std::min(hint.triangle, static_cast<std::uint32_t>(triangles_.size() - 1));
+    double nearest = distanceOf(hint.triangle);
     std::array<std::uint32_t, 64> stack{};
     std::size_t depth = 0;
     stack[depth++] = 0;
@@ -79,8 +83,10 @@ double FaceTree::distanceTo(Vec3d point, double enough) const {
         const Node& node = nodes_[number];
         if (distanceToBox(node.box, point) >= nearest) continue;
         for (std::uint32_t t = node.first; t < node.first + node.count; ++t)
-            nearest =
-                std::min(nearest, distanceToTriangle(point, triangles_[t][0], triangles_[t][1], triangles_[t][2]));
+            if (const double distance = distanceOf(t); distance < nearest) {
+                nearest = distance;
+                hint.triangle = t;
+            }
         if (node.count > 0) continue;
         // The nearer child is taken first.
         std::uint32_t near = number + 1, far = node.first;
@@ -93,7 +99,9 @@ double FaceTree::distanceTo(Vec3d point, double enough) const {
 
 double largestDistance(const Faces& faces, const FaceTree& other, Vec3d shift, double step) {
     double largest = 0;
-    const auto look = [&](Vec3d point) { largest = std::max(largest, other.distanceTo(point + shift, largest)); };
+    FaceTree::Hint
+        hint;  // the points of a triangle, and mostly of the next one, have one triangle of the other near them
+    const auto look = [&](Vec3d point) { largest = std::max(largest, other.distanceTo(point + shift, largest, hint)); };
     for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
         const auto [a, b, c] = faces.corners(t);
         for (const Vec3d point : {a, b, c, (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, (a + b + c) / 3.0}) look(point);

@@ -15,10 +15,19 @@ public:
     /// Cost: O(n log n) for n triangles.
     explicit FaceTree(const Faces& faces);
 
+    /// A triangle near the last point: the search for a point beside it begins there.
+    struct Hint {
+        std::uint32_t triangle = 0;
+    };
     /// Distance from a point to the nearest triangle, metres; infinite without triangles.
     /// \param enough  the search ends at a triangle within this distance, and returns its distance
-    /// Cost: O(log n) where the triangles are spread in space.
-    [[nodiscard]] double distanceTo(Vec3d point, double enough = 0) const;
+    /// \param hint    any; receives the triangle of the result. It saves time, and never changes a result above `enough`
+    /// Cost: O(log n) where the triangles are spread in space; O(1) if the hint is within `enough`.
+    [[nodiscard]] double distanceTo(Vec3d point, double enough, Hint& hint) const;
+    [[nodiscard]] double distanceTo(Vec3d point, double enough = 0) const {
+        Hint hint;
+        return distanceTo(point, enough, hint);
+    }
 
 private:
     struct Node {

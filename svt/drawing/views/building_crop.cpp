@@ -231,6 +231,12 @@ SectionDrawing croppedToBuilding(const SectionDrawing& drawing, std::span<const 
     visitPoints(drawing, [&](std::uint32_t label, PlanePoint p) {
         if (isAround[label] == 0) box.add(p);
     });
+    // Removed parts may lie beyond the building.
+    for (const RevisionLines& revision : drawing.revisions)
+        for (const RevisionLines::Line& line : revision.removed) {
+            box.add(line.from);
+            box.add(line.to);
+        }
     if (box.isEmpty()) return cropped;
     const double margin =
         std::max(kLeastMargin, kMarginShare * std::max(box.high.u - box.low.u, box.high.v - box.low.v));

@@ -294,7 +294,10 @@ private:
         const auto renewed = [&](const std::string& id) {
             return fmt::format("n{:016x}", fnvHash(id, mixBits(seed_)));
         };
-        for (Component& component : plan_.components) component.id = renewed(component.id);
+        for (Component& component : plan_.components) {
+            component.mark = component.id;
+            component.id = renewed(component.id);
+        }
         for (PlanChange& change : changes_.edits)
             if (change.is) change.is = renewed(*change.is);
     }

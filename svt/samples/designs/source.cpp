@@ -98,6 +98,11 @@ std::string Document::idOf(const PlacedPlan& placed, int component) const {
     return placed.prefix + placed.component(component).id;
 }
 
+std::string Document::markOf(const PlacedPlan& placed, int component) const {
+    const Component& c = placed.component(component);
+    return placed.prefix + (c.mark.empty() ? c.id : c.mark);
+}
+
 std::string Document::nameOf(const PlacedPlan& placed, int component) const {
     return placed.namePrefix + placed.component(component).name;
 }

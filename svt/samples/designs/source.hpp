@@ -44,6 +44,8 @@ struct Document {
     }
     [[nodiscard]] Material shown(Material designed) const;
     [[nodiscard]] std::string idOf(const PlacedPlan& placed, int component) const;
+    /// Component::mark with the prefix of the building.
+    [[nodiscard]] std::string markOf(const PlacedPlan& placed, int component) const;
     [[nodiscard]] std::string nameOf(const PlacedPlan& placed, int component) const;
     /// Parent as in CityGML 3.0: the component's parent, the storey of a unit, else the building.
     [[nodiscard]] std::string parentIdOf(const PlacedPlan& placed, int component) const;

@@ -289,13 +289,13 @@ private:
 
     int product(std::size_t c, int place, int shape) {
         const Component& component = placed_->plan->components[c];
-        const std::string id = idOf(c), name = nameOf(c);
+        const std::string id = idOf(c), mark = document_.markOf(*placed_, int(c)), name = nameOf(c);
         const std::string head =
             stepValues("$", component.function.empty() ? "$" : stepText(component.function), place, shape);
         if (component.kind == Kind::Room)
-            return records_.rooted("IFCSPACE", id, stepText(id), head, stepText(name), ".ELEMENT.,.INTERNAL.,$");
+            return records_.rooted("IFCSPACE", id, stepText(mark), head, stepText(name), ".ELEMENT.,.INTERNAL.,$");
         if (component.kind == Kind::Unit)
-            return records_.rooted("IFCSPATIALZONE", id, stepText(id), head, stepText(name), ".OCCUPANCY.");
+            return records_.rooted("IFCSPATIALZONE", id, stepText(mark), head, stepText(name), ".OCCUPANCY.");
         const IfcType type = typeOf(component);
         std::string tail(type.predefined);
         if (component.kind == Kind::Window || component.kind == Kind::Door) {
@@ -306,7 +306,7 @@ private:
                               : wide > 1300           ? ".DOOR.,.DOUBLE_DOOR_SINGLE_SWING.,$"
                                                       : ".DOOR.,.SINGLE_SWING_LEFT.,$");
         }
-        return records_.rooted(type.type, id, stepText(name), head, stepText(id), tail);
+        return records_.rooted(type.type, id, stepText(name), head, stepText(mark), tail);
     }
 
     // The opening that a door or window fills: the cut of its wall that it stands in. The wall comes before it.

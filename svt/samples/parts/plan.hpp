@@ -64,7 +64,8 @@ struct Instance {
 
 struct Component {
     Kind kind = Kind::Element;
-    std::string id;  ///< unique in the plan; files prepend the prefix of the building
+    std::string id;      ///< unique in the plan; files prepend the prefix of the building
+    std::string mark{};  ///< number of a room, tag of an element; empty: the id. It stays if ids are renewed
     std::string name;
     std::string function;
     std::vector<Attribute> attributes;

@@ -4,6 +4,8 @@
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/drawing/name_place.hpp>
 #include <svt/writers/field/field_marks.hpp>
+#include <svt/writers/revisions/revision_clouds.hpp>
+#include <svt/writers/sheet_writer.hpp>
 
 #include <fmt/format.h>
 
@@ -42,6 +44,7 @@ public:
         else
             for (const MarkShapes& marks : *options_.marks) inLayer(marks.layer, [&] { addMarks(marks); });
         if (hasDimensions(drawing_)) inLayer("Dimensions", [&] { addDimensions(); });
+        if (hasRevisions(drawing_)) addRevisions();
     }
 
 private:
@@ -223,6 +226,52 @@ private:
         };
         for (const DimensionMark& mark : placed.marks) write(mark.text, mark.feet.empty());
         for (const MarkText& text : placed.heights) write(text, true);
+    }
+
+    // Texts of other marks, which the numbers of revisions keep clear.
+    [[nodiscard]] std::vector<RevisionObstacle> takenPlaces() const {
+        std::vector<RevisionObstacle> taken;
+        const auto add = [&](const MarkText& text) {
+            constexpr double kRing = 1.5;  // millimetres: the circle or hexagon around a mark
+            const double width = widthOnPaper(text.text, text.size);
+            const double u = text.isUpright ? text.size : 0.5 * width, v = text.isUpright ? 0.5 * width : 0;
+            taken.push_back(
+                {{text.at.u - u - kRing, text.at.v - v - kRing},
+                 {text.at.u + (text.isUpright ? 0 : u) + kRing, text.at.v + (text.isUpright ? v : text.size) + kRing}});
+        };
+        if (options_.marks != nullptr)
+            for (const MarkShapes& shapes : *options_.marks)
+                for (const MarkText& text : shapes.texts) add(text);
+        if (!hasDimensions(drawing_)) return taken;
+        const DimensionMarks placed =
+            placeDimensions(drawing_, drawnBox(drawing_), place_.millimetres, options_.openings);
+        for (const DimensionMark& mark : placed.marks) add(mark.text);
+        for (const MarkText& text : placed.heights) add(text);
+        return taken;
+    }
+
+    // Over everything else.
+    void addRevisions() {
+        const RevisionMarks marks = placeRevisions(drawing_, place_.millimetres, takenPlaces());
+        const auto onPaper = [&](const RevisionMarks::Path& path) {
+            PaperPath points;
+            for (const PlanePoint p : path) points.push_back(ofMark(p));
+            return points;
+        };
+        std::vector<PaperPath> removed, clouds, tags;
+        for (const drawing::RevisionLines::Line& line : marks.removed)
+            removed.push_back({ofMark(line.from), ofMark(line.to)});
+        for (const RevisionMarks::Cloud& cloud : marks.clouds) clouds.push_back(onPaper(cloudPath(cloud)));
+        for (const RevisionMarks::Tag& tag : marks.tags)
+            tags.push_back(onPaper({tag.corners[0], tag.corners[1], tag.corners[2], tag.corners[0]}));
+        if (!removed.empty()) inLayer("Removed", [&] { canvas_.stroke(removed, {widths_.beyond, LineType::Dashed}); });
+        inLayer("Revisions", [&] {
+            for (const PaperPath& tag : tags) canvas_.fill({tag}, "#ffffff");
+            canvas_.stroke(clouds, {widths_.leaf});
+            canvas_.stroke(tags, {widths_.leaf});
+            for (const RevisionMarks::Tag& tag : marks.tags)
+                canvas_.text({ofMark(tag.at), tag.size, tag.text, TextAnchor::Middle});
+        });
     }
 
     const drawing::SectionDrawing& drawing_;

@@ -293,7 +293,8 @@ private:
         if (!hasRightToLeft(text)) return text;
         std::optional<std::string> ordered = visualOrder(text);
         file_.hasUnorderedText = file_.hasUnorderedText || !ordered;
-        return ordered ? std::move(*ordered) : text;
+        if (!ordered) return text;
+        return std::move(*ordered);
     }
     // Letters of no font stay with the embedded one, which draws boxes.
     std::vector<TextRun> runsOf(std::string_view text) {

@@ -3,6 +3,8 @@
 #include <svt/core/rounding.hpp>
 #include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_style.hpp>
+#include <svt/writers/revisions/revision_list.hpp>
+#include <svt/writers/sheet_writer.hpp>
 
 #include <fmt/format.h>
 
@@ -10,6 +12,11 @@
 #include <tuple>
 
 namespace svt::writers {
+namespace {
+
+constexpr double kRevisionMargin = 14;  // millimetres around a drawing with revision clouds and their numbers
+
+}  // namespace
 
 Result<DrawingPage> makeDrawingPage(const drawing::SectionDrawing& drawing, double scale) {
     using drawing::DimensionSide;
@@ -30,7 +37,22 @@ Result<DrawingPage> makeDrawingPage(const drawing::SectionDrawing& drawing, doub
     page.height = page.top + (page.high.v - page.low.v) * page.millimetres +
                   dimensionReach(drawing, DimensionSide::Below) + DrawingPage::kMargin + DrawingPage::kTitleHeight;
     page.field = roundDownTo125(12.5 / page.millimetres);
+    if (!hasRevisions(drawing)) return page;
+    page.revisionsHeight =
+        revisionListSize(drawing.revisions.size(), page.width - 2 * DrawingPage::kMargin, DrawingPage::kMostRevisions)
+            .height;
+    page.height += page.revisionsHeight + kRevisionMargin;
+    page.top += kRevisionMargin;
+    page.height += kRevisionMargin;
+    page.left += kRevisionMargin;
+    page.width += 2 * kRevisionMargin;
     return page;
+}
+
+std::vector<drawing::Revision> revisionsOf(const drawing::SectionDrawing& drawing) {
+    std::vector<drawing::Revision> revisions;
+    for (const drawing::RevisionLines& lines : drawing.revisions) revisions.push_back(lines.revision);
+    return revisions;
 }
 
 void addField(const drawing::FieldDrawing& field, DrawingPage& page) {

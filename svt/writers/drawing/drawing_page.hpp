@@ -6,6 +6,9 @@
 #include <svt/drawing/field_drawing.hpp>
 #include <svt/drawing/section_drawing.hpp>
 
+#include <cstddef>
+#include <vector>
+
 namespace svt::writers {
 
 /// Millimetres on paper, from the upper left corner.
@@ -20,10 +23,16 @@ struct DrawingPage {
     [[nodiscard]] double titleTop() const noexcept { return height - kTitleHeight - 2; }
     /// Upper edge of the legend of a field, after addField().
     [[nodiscard]] double legendTop() const noexcept { return titleTop() - kLegendHeight; }
+    static constexpr std::size_t kMostRevisions = 60;  ///< rows of the list of revisions
+    double revisionsHeight = 0;                        ///< of this list above the title; 0: none
+    [[nodiscard]] double revisionsTop() const noexcept { return titleTop() - revisionsHeight; }
 };
 
 /// \return the page, or BadArgument: a scale out of 1:0.01 to 1:10000000
 [[nodiscard]] Result<DrawingPage> makeDrawingPage(const drawing::SectionDrawing& drawing, double scale);
+
+/// The revisions of a drawing, for makeRevisionList().
+[[nodiscard]] std::vector<drawing::Revision> revisionsOf(const drawing::SectionDrawing& drawing);
 
 /// Widens a page by the parts of a field beyond the section, and by its legend above the title.
 void addField(const drawing::FieldDrawing& field, DrawingPage& page);

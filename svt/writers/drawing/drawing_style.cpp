@@ -80,6 +80,11 @@ std::pair<PlanePoint, PlanePoint> drawnBox(const drawing::SectionDrawing& drawin
         for (const auto& arc : door.arcs)
             for (const PlanePoint p : {arc.from, arc.to}) add(p);
     }
+    for (const drawing::RevisionLines& revision : drawing.revisions)
+        for (const drawing::RevisionLines::Line& line : revision.removed) {
+            add(line.from);
+            add(line.to);
+        }
     if (!(low.u <= high.u)) return {};
     return {low, high};
 }

@@ -1,10 +1,15 @@
+#include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/writers/drawing/dimension_marks.hpp>
+#include <svt/writers/drawing/drawing_page.hpp>
 #include <svt/writers/drawing/drawing_style.hpp>
 #include <svt/writers/drawing/dxf_file.hpp>
 #include <svt/writers/drawing/dxf_parts.hpp>
 #include <svt/writers/dxf_drawing.hpp>
 #include <svt/writers/field/field_marks.hpp>
+#include <svt/writers/revisions/revision_clouds.hpp>
+#include <svt/writers/revisions/revision_list.hpp>
+#include <svt/writers/sheet_writer.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -119,6 +124,14 @@ public:
             for (double& dash : type.dashes) dash *= kDashUnit;
             file_.add(std::move(type));
         }
+        const BeyondStyle& removed = beyondStyle(drawing::BeyondKind::Hidden);
+        const bool hasType = std::ranges::any_of(
+            drawing_.beyond, [](const drawing::BeyondLine& l) { return l.kind == drawing::BeyondKind::Hidden; });
+        if (hasRevisions(drawing_) && !hasType) {
+            DxfLineType type{removed.lineType, removed.words, removed.dashes};
+            for (double& dash : type.dashes) dash *= kDashUnit;
+            file_.add(std::move(type));
+        }
         return file_.write(comments(), view(), out_.take());
     }
 
@@ -182,6 +195,60 @@ private:
         for (const drawing::DoorSwing& swing : drawing_.doors) addDoor(swing);
         for (const DimensionMark& mark : dimensions_.marks) addDimension(mark);
         for (const MarkText& text : dimensions_.heights) addDimensionText(text);
+        if (hasRevisions(drawing_)) addRevisions();
+    }
+
+    // Clouds have arcs (42: their bulge), and the numbers of their revisions as extended data.
+    void addRevisions() {
+        const RevisionMarks marks = placeRevisions(drawing_, kDimensionScale);
+        const std::string layer =
+            file_.layer(hasIsoLayers_ ? isoLayerOf(DxfContent::Text) : "REVISIONS", 7, "Continuous", kMediumWidth);
+        const BeyondStyle& style = beyondStyle(drawing::BeyondKind::Hidden);
+        const std::string removed = file_.layer("REMOVED", style.color, style.lineType, kBeyondWidth);
+        for (const drawing::RevisionLines::Line& line : marks.removed)
+            addLine(place_.placed(inMetres(line.from)), place_.placed(inMetres(line.to)), removed);
+        const auto addClosed = [&](std::span<const PlanePoint> points, double bulge) {
+            begin("LWPOLYLINE", layer, "AcDbPolyline");
+            out_.add({{90, static_cast<int>(points.size())}, {70, 1}, {43, 0}});
+            if (place_.isWorld()) out_.add({{38, place_.elevation()}});
+            for (const PlanePoint p : points) {
+                out_.point(10, place_.flat(inMetres(p)));
+                if (bulge != 0) out_.add({{42, bulge}});
+            }
+            addExtrusion();
+        };
+        for (const RevisionMarks::Cloud& cloud : marks.clouds) {
+            addClosed(cloud.ends, RevisionMarks::kBulge);
+            out_.add({{1001, "SVT"},
+                      {1000, fmt::format("revisions {}", fmt::join(cloud.numbers, " ")).substr(0, kMostCharacters)}});
+        }
+        for (const RevisionMarks::Tag& tag : marks.tags) addClosed(tag.corners, 0);
+        const double turn = place_.turnDegrees();
+        const auto write = [&](PlanePoint at, double size, const std::string& text) {
+            addText(at, dxfText(text), layer, {"SVT_NAMES", 0.73 * size / kDimensionScale, turn, turn != 0, true});
+        };
+        for (const RevisionMarks::Tag& tag : marks.tags) write(inMetres(tag.at), tag.size, tag.text);
+        addRevisionList(layer);
+    }
+
+    // Below the drawing and its dimensions. Texts are centred, so their ends become middles.
+    void addRevisionList(const std::string& layer) {
+        constexpr double kBelow = 16;  // millimetres
+        const auto [low, high] = drawnBox(drawing_);
+        const double left = low.u * kDimensionScale,
+                     top = low.v * kDimensionScale - kBelow - dimensionReach(drawing_, drawing::DimensionSide::Below);
+        const RevisionList list =
+            makeRevisionList(revisionsOf(drawing_), 0, 0, std::max(110.0, (high.u - low.u) * kDimensionScale),
+                             DrawingPage::kMostRevisions);
+        const auto placed = [&](double x, double y) { return inMetres({left + x, top - y}); };
+        for (const RevisionList::Rule& rule : list.rules)
+            addLine(place_.placed(placed(rule.left, rule.y)), place_.placed(placed(rule.right, rule.y)), layer);
+        const double turn = place_.turnDegrees();
+        for (const RevisionList::Text& text : list.texts) {
+            const double half = 0.3 * RevisionList::kText * double(characterCount(text.text));
+            addText(placed(text.isEnd ? text.x - half : text.x + half, text.y), dxfText(text.text), layer,
+                    {"SVT_NAMES", 0.73 * RevisionList::kText / kDimensionScale, turn, turn != 0, true});
+        }
     }
 
     [[nodiscard]] const volume::Label& labelOf(std::uint32_t label) const noexcept {

@@ -36,24 +36,10 @@ bool isInside(PlanePoint p, const std::vector<Segment>& borders) noexcept {
     return inside;
 }
 
-}  // namespace
-
-std::optional<NamePlace> placeName(const drawing::SectionComponent& component, const drawing::SectionDrawing& drawing,
-                                   double millimetres, double width, double lines) {
-    const auto& largest = *std::max_element(component.polygons.begin(), component.polygons.end(),
-                                            [](const auto& a, const auto& b) { return a.area < b.area; });
-    const drawing::TextPlace place = drawing::findTextPlace(largest);
-    const double size =
-        std::min({kTextSize, 0.9 * place.width * millimetres / width, 0.8 * place.height * millimetres / lines});
-    if (!(size >= kLeastTextSize)) return std::nullopt;
-    std::vector<Segment> borders, crossing;
-    addRing(largest.outer, borders);
-    for (const auto& hole : largest.holes) addRing(hole, borders);
-    Rectangle all{largest.outer.front(), largest.outer.front()};
-    for (const PlanePoint p : largest.outer) {
-        all.low = {std::min(all.low.u, p.u), std::min(all.low.v, p.v)};
-        all.high = {std::max(all.high.u, p.u), std::max(all.high.v, p.v)};
-    }
+// The lines and texts of the drawing that may cross the name of a component with the box `all`.
+std::vector<Segment> linesAcross(const drawing::SectionComponent& component, const drawing::SectionDrawing& drawing,
+                                 const Rectangle& all, double millimetres) {
+    std::vector<Segment> crossing;
     for (const drawing::BeyondLine& line : drawing.beyond)
         if (meets({line.from, line.to}, all)) crossing.push_back({line.from, line.to});
     for (const drawing::RoomDimension& dimension : drawing.roomDimensions)
@@ -81,6 +67,28 @@ std::optional<NamePlace> placeName(const drawing::SectionComponent& component, c
             for (std::size_t n = 0; n + 1 < line.size(); ++n)
                 if (meets({line[n], line[n + 1]}, all)) crossing.push_back({line[n], line[n + 1]});
     }
+    return crossing;
+}
+
+}  // namespace
+
+std::optional<NamePlace> placeName(const drawing::SectionComponent& component, const drawing::SectionDrawing& drawing,
+                                   double millimetres, double width, double lines) {
+    const auto& largest = *std::max_element(component.polygons.begin(), component.polygons.end(),
+                                            [](const auto& a, const auto& b) { return a.area < b.area; });
+    const drawing::TextPlace place = drawing::findTextPlace(largest);
+    const double size =
+        std::min({kTextSize, 0.9 * place.width * millimetres / width, 0.8 * place.height * millimetres / lines});
+    if (!(size >= kLeastTextSize)) return std::nullopt;
+    std::vector<Segment> borders;
+    addRing(largest.outer, borders);
+    for (const auto& hole : largest.holes) addRing(hole, borders);
+    Rectangle all{largest.outer.front(), largest.outer.front()};
+    for (const PlanePoint p : largest.outer) {
+        all.low = {std::min(all.low.u, p.u), std::min(all.low.v, p.v)};
+        all.high = {std::max(all.high.u, p.u), std::max(all.high.v, p.v)};
+    }
+    const std::vector<Segment> crossing = linesAcross(component, drawing, all, millimetres);
     const double halfWidth = 0.5 * (size * width + 0.8) / millimetres,
                  halfHeight = 0.5 * (size * lines + 0.8) / millimetres;
     const auto countCrossings = [&](PlanePoint p) {

@@ -7,6 +7,9 @@
 #include <svt/writers/drawing/name_place.hpp>
 #include <svt/writers/field/field_marks.hpp>
 #include <svt/writers/labels/label_looks.hpp>
+#include <svt/writers/revisions/revision_clouds.hpp>
+#include <svt/writers/revisions/revision_list.hpp>
+#include <svt/writers/sheet_writer.hpp>
 #include <svt/writers/svg_drawing.hpp>
 
 #include <fmt/format.h>
@@ -43,6 +46,7 @@ public:
         if (look_.isShown()) addIsolines();
         addNames();
         addDimensions();
+        if (hasRevisions(drawing_)) addRevisions();
         if (look_.isShown()) addLegend();
         addTitle();
         svg_ += "</svg>\n";
@@ -109,6 +113,12 @@ private:
             svg_ +=
                 ".dimensions { text-anchor: middle }\n"
                 ".tick { fill: none; stroke: #000; stroke-width: 0.35; stroke-linecap: round }\n";
+        if (hasRevisions(drawing_))
+            svg_ +=
+                ".removed { fill: none; stroke: #000; stroke-width: 0.18; stroke-dasharray: 2.16 0.54 }\n"
+                ".revision { fill: none; stroke: #000; stroke-width: 0.25; stroke-linejoin: round }\n"
+                ".tag { fill: #fff }\n"
+                ".numbers { text-anchor: middle }\n";
         svg_ += "</style>\n<defs>\n";
         for (const HatchTile& tile : hatchTiles())
             if (isUsed(tile.hatch)) svg_ += svgPattern(tile, tile.turnDegrees != 0);
@@ -356,6 +366,43 @@ private:
             addMarkText(mark.text, at(mark.text.at));
         }
         for (const MarkText& text : placed.heights) addMarkText(text, at(text.at));
+        svg_ += "</g>\n";
+    }
+
+    [[nodiscard]] std::string markText(PlanePoint p) const {
+        return shortNumber(page_.left + p.u - page_.low.u * page_.millimetres, 3) + " " +
+               shortNumber(page_.top + page_.high.v * page_.millimetres - p.v, 3);
+    }
+
+    // Lines of removed parts, clouds with the numbers of their revisions, and the list.
+    void addRevisions() {
+        const RevisionMarks marks = placeRevisions(drawing_, page_.millimetres);
+        svg_ += layer("removed", "Removed") + "<path d=\"";
+        for (const drawing::RevisionLines::Line& line : marks.removed)
+            svg_ += "M" + markText(line.from) + "L" + markText(line.to);
+        svg_ += "\"/>\n</g>\n" + layer("revisions", "Revisions");
+        for (const RevisionMarks::Cloud& cloud : marks.clouds) {
+            svg_ += fmt::format("<path class=\"revision\" data-revisions=\"{}\" d=\"", fmt::join(cloud.numbers, " "));
+            const RevisionMarks::Path path = cloudPath(cloud);
+            for (std::size_t n = 0; n < path.size(); ++n)
+                svg_ += (n == 0 ? "M" : n == 1 ? "L" : " ") + markText(path[n]);
+            svg_ += "Z\"/>\n";
+        }
+        for (const RevisionMarks::Tag& tag : marks.tags)
+            svg_ += fmt::format("<path class=\"revision tag\" d=\"M{}L{} {}Z\"/>\n", markText(tag.corners[0]),
+                                markText(tag.corners[1]), markText(tag.corners[2]));
+        svg_ += "<g class=\"numbers\">\n";
+        for (const RevisionMarks::Tag& tag : marks.tags)
+            addText(page_.left + tag.at.u - page_.low.u * page_.millimetres,
+                    page_.top + page_.high.v * page_.millimetres - tag.at.v, tag.size, tag.text);
+        svg_ += "</g>\n</g>\n" + layer("revision-table", "Revision table");
+        const RevisionList list = makeRevisionList(revisionsOf(drawing_), kMargin, page_.revisionsTop(),
+                                                   page_.width - 2 * kMargin, DrawingPage::kMostRevisions);
+        for (const RevisionList::Rule& rule : list.rules)
+            svg_ += fmt::format("<path class=\"thin\" d=\"M{} {}H{}\"/>\n", shortNumber(rule.left, 3),
+                                shortNumber(rule.y, 3), shortNumber(rule.right, 3));
+        for (const RevisionList::Text& text : list.texts)
+            addText(text.x, text.y, RevisionList::kText, text.text, text.isEnd ? " text-anchor=\"end\"" : "");
         svg_ += "</g>\n";
     }
 

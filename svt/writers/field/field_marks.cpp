@@ -94,7 +94,8 @@ int autocadColor(const std::string& color) {
         }
     };
     for (int number = 10; number < 250; ++number) {
-        const float hue = static_cast<float>(number / 10 - 1) / 4;  // sixths of a turn
+        const int quarter = number / 10 - 1;
+        const float hue = static_cast<float>(quarter) / 4;  // sixths of a turn
         const auto channel = [&](float at) {
             const float away = std::abs(std::remainder(hue - at, 6.0f));
             return std::clamp(2 - away, 0.0f, 1.0f);

@@ -188,7 +188,7 @@ private:
         return at->second;
     }
 
-    OrderedJson registered() const {
+    [[nodiscard]] OrderedJson registered() const {
         OrderedJson parties = OrderedJson::array(), sources = OrderedJson::array(), faces = OrderedJson::array(),
                     relations = OrderedJson::array();
         for (const std::string& party : all_.parties) parties.push_back(party);

@@ -207,7 +207,7 @@ private:
     }
 
     // \return the lower end of the table
-    double paintTable(const ReportTable& table, double left, double top) const {
+    [[nodiscard]] double paintTable(const ReportTable& table, double left, double top) const {
         if (table.rows.empty()) return top - 4;
         canvas_.text({{left, top}, 3.2, table.title});
         top += 1.5;

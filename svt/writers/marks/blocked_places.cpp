@@ -60,8 +60,8 @@ bool BlockedPlaces::isBlocked(const MarkBox& box) const noexcept {
     const double left = std::ceil(box.low.u) - u, low = std::ceil(box.low.v) - v,
                  right = std::floor(box.high.u) - u - static_cast<double>(columns_),
                  high = std::floor(box.high.v) - v - static_cast<double>(rows_);
-    const double width = static_cast<double>(marks_.words * 64),
-                 height = static_cast<double>(marks_.rows.size() / marks_.words);
+    const std::size_t rows = marks_.rows.size() / marks_.words;
+    const double width = static_cast<double>(marks_.words * 64), height = static_cast<double>(rows);
     if (!(left >= 0 && low >= 0 && right >= left && high >= low && right < width && high < height)) return false;
     const auto u0 = static_cast<std::int64_t>(left), v0 = static_cast<std::int64_t>(low),
                u1 = static_cast<std::int64_t>(right), v1 = static_cast<std::int64_t>(high);

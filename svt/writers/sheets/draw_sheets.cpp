@@ -51,6 +51,32 @@ std::vector<DrawnResult> drawAll(const std::vector<drawing::SheetView>& views, i
     return drawn;
 }
 
+// The views of another state: only lines, which are compared with those of the new one.
+Result<std::vector<drawing::SectionDrawing>> drawBefore(const drawing::SheetSet& set, const SheetContent& content,
+                                                        const volume::SemanticVolume& before, int threads) {
+    const drawing::DrawingTables tables(before);
+    std::vector<drawing::SheetView> views;
+    for (const DrawnView& view : content.views) views.push_back(view.view);
+    const auto draw = [&](std::size_t n, int ownThreads) -> Result<drawing::SectionDrawing> {
+        std::vector<std::string> ignored;  // what a query finds in the new state only
+        drawing::SectionOptions options;
+        options.hide = set.hide;
+        options.smallestArea = 1e-4;
+        options.threads = ownThreads;
+        options.beyond = views[n].beyond;
+        options.tables = &tables;
+        options.doorSwings = false;
+        options.nothing = &ignored;
+        return drawing::drawSection(before, views[n].plane, options);
+    };
+    std::vector<drawing::SectionDrawing> drawings;
+    for (DrawnResult& drawn : drawAll(views, threads, draw)) {
+        SVT_TRY(drawing, std::move(*drawn));
+        drawings.push_back(std::move(*drawing));
+    }
+    return drawings;
+}
+
 }  // namespace
 
 SheetOptions sheetOptionsOf(const drawing::SheetSet& set) {
@@ -59,7 +85,7 @@ SheetOptions sheetOptionsOf(const drawing::SheetSet& set) {
 }
 
 Result<SheetContent> drawSheets(drawing::SheetSet& set, const volume::SemanticVolume& volume, int threads,
-                                std::vector<std::string>* nothing) {
+                                std::vector<std::string>* nothing, const volume::SemanticVolume* before) {
     const drawing::DrawingTables tables(volume);
     SVT_TRY(chosen, chooseViews(set, volume, tables, threads));
     SheetContent content;
@@ -91,6 +117,10 @@ Result<SheetContent> drawSheets(drawing::SheetSet& set, const volume::SemanticVo
         SVT_TRY(drawing, std::move(*drawings[n]));
         drawing->dimensionUnit = set.dimensionUnit;
         content.views.push_back({std::move(chosen->views[n]), std::move(*drawing), groups[n]});
+    }
+    if (before != nullptr) {
+        SVT_TRY(drawn, drawBefore(set, content, *before, threads));
+        content.before = std::move(*drawn);
     }
     content.openings = drawing::scheduleOpenings(volume, content.levels);
     content.stairs = drawing::findStairFlights(volume);

@@ -47,7 +47,7 @@ MarkBox allowedAround(const ViewContext& context) {
     const SheetPaper& paper = context.layout.paper;
     const PaperBox own = outerOf(context.placed);
     PaperBox free{paper.left + kFromFrame, paper.top + kFromFrame, paper.right - kFromFrame,
-                  paper.bottom - SheetPaper::kTitleHeight - paper.legend - kFromFrame};
+                  paper.bottom - SheetPaper::kTitleHeight - paper.legend - paper.revisions - kFromFrame};
     for (const PlacedView& placed : context.sheet.views) {
         if (placed.view == context.placed.view) continue;
         PaperBox other = outerOf(placed);

@@ -215,6 +215,7 @@ Result<std::string> makeSheetDxf(const SheetContent& content, std::size_t view, 
     own.areas = content.areas;
     own.openings = content.openings;
     own.stairs = content.stairs;
+    own.revisions = content.revisions;
     own.views.push_back(drawn);
     own.views.front().drawing = drawing::croppedToBuilding(drawn.drawing, isAround);
     SVT_TRY(layout, layOutSheets(own, options));
@@ -249,6 +250,7 @@ Result<std::string> makeSheetDxf(const SheetContent& content, std::size_t view, 
     const BlockContext block{own, volume, options, *layout, sheet, view, title, volume.source, facts};
     paintTitleBlock(block, canvas);
     paintLegend(block, canvas);
+    paintRevisionList(block, canvas);
     canvas.text({{placed.place.corner.x, placed.place.corner.y + margins.below + 14}, 3.5, title});
     addLayout(dxf, canvas.take(), fmt::format("{} 1 to {:g}", paper.name, sheet.scale), paper, handles);
     return dxf;

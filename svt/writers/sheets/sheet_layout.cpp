@@ -5,6 +5,8 @@
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/marks/ground_line.hpp>
 #include <svt/writers/marks/plan_lines.hpp>
+#include <svt/writers/revisions/revision_list.hpp>
+#include <svt/writers/sheet_writer.hpp>
 
 #include <fmt/format.h>
 
@@ -120,7 +122,7 @@ private:
     }
     [[nodiscard]] double areaWidth() const { return paper_.right - paper_.left; }
     [[nodiscard]] double areaHeight() const {
-        return paper_.bottom - SheetPaper::kTitleHeight - paper_.legend - paper_.top;
+        return paper_.bottom - SheetPaper::kTitleHeight - paper_.legend - paper_.revisions - paper_.top;
     }
     static double outerWidth(const ViewSize& size, double scale) {
         return size.width * 1000 / scale + 2 * kBeside + size.margins.left + size.margins.right;
@@ -184,8 +186,32 @@ private:
     const SheetContent& content_;
 };
 
-Result<SheetLayout> layOutViews(const SheetContent& content, const SheetOptions& options) {
+// The paper with a strip for the revisions, if there are any.
+Result<SheetPaper> paperFor(const SheetContent& content, const SheetOptions& options) {
+    constexpr double kFromFrame = 8, kBelow = 1;
     SVT_TRY(paper, paperOf(options));
+    if (!kDrawsRevisions) return paper;
+    const auto numbered = std::count_if(content.revisions.begin(), content.revisions.end(),
+                                        [](const drawing::Revision& revision) { return revision.number != 0; });
+    const RevisionListSize size =
+        revisionListSize(std::size_t(numbered), paper->right - paper->left - 2 * kFromFrame, SheetPaper::kRevisionRows);
+    if (size.rows > 0) paper->revisions = size.height + kBelow;
+    return paper;
+}
+
+// Whether the list of revisions takes so much space that the views need a smaller scale, or do not fit at theirs.
+bool makesSmaller(const SheetPaper& paper, const std::vector<ViewSize>& sizes, const SheetContent& content,
+                  double scale) {
+    SheetPaper without = paper;
+    without.revisions = 0;
+    const LayoutMaker with(paper, sizes, content), alone(without, sizes, content);
+    if (scale > 0) return !with.fits(scale) && alone.fits(scale);
+    return std::any_of(std::begin(kScales), std::end(kScales),
+                       [&](double s) { return !with.fits(s) && alone.fits(s); });
+}
+
+Result<SheetLayout> layOutViews(const SheetContent& content, const SheetOptions& options) {
+    SVT_TRY(paper, paperFor(content, options));
     if (options.scale != 0 && !(options.scale >= 0.01 && options.scale <= 1e7))
         return Error(Code::BadArgument,
                      fmt::format("a scale of 1:{} is out of range; 1:0.01 to 1:10000000 are possible", options.scale));
@@ -195,6 +221,7 @@ Result<SheetLayout> layOutViews(const SheetContent& content, const SheetOptions&
         if (high.u > low.u || high.v > low.v)
             sizes.push_back({n, low, high.u - low.u, high.v - low.v, marginsOf(content.views[n], content)});
     }
+    if (paper->revisions > 0 && makesSmaller(*paper, sizes, content, options.scale)) paper->revisions = 0;
     const LayoutMaker maker(*paper, sizes, content);
     if (const double scale = maker.tooLargeScale(); scale > 0)
         return Error(Code::BadArgument,
@@ -210,7 +237,7 @@ Result<SheetLayout> layOutViews(const SheetContent& content, const SheetOptions&
     if (maker.fits(options.scale)) return maker.make(options.scale);
     for (const char* name : {"A4", "A3", "A2", "A1", "A0"})
         if (SheetOptions other = options;
-            other.paper = name, LayoutMaker(*paperOf(other), sizes, content).fits(options.scale))
+            other.paper = name, LayoutMaker(*paperFor(content, other), sizes, content).fits(options.scale))
             return Error(Code::BadArgument, fmt::format("the views do not fit onto {} at 1:{}; {} is large enough",
                                                         paper->name, shortNumber(options.scale, 2), name));
     const auto* scale = std::find_if(std::begin(kScales), std::end(kScales),

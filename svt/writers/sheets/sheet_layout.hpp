@@ -20,6 +20,9 @@ struct SheetPaper {
     static constexpr double kTitleWidth = 180, kTitleHeight = 36;
     double legend =
         0;  ///< height of a strip for the legend above the block, on paper too narrow for it beside the block
+    /// Height of a strip above that one for the list of revisions; 0 where it would make the views smaller.
+    double revisions = 0;
+    static constexpr std::size_t kRevisionRows = 6;  ///< of a column of this list
 };
 
 /// Space for dimensions around a drawing, millimetres.

@@ -88,6 +88,18 @@ constexpr Term<SheetWord> kWords[] = {
     {W::WidthMeasured, "measured", "gemessen"},
     {W::HeightMeasured, "measured", "gemessen"},
     {W::Sill, "Sill m", "Brüstung m"},
+    {W::Revisions, "Revisions", "Änderungen"},
+    {W::RevisionChange, "Change", "Art"},
+    {W::RevisionObject, "Object", "Bauteil"},
+    {W::RevisionAdded, "+ m\u00B3", "+ m\u00B3"},
+    {W::RevisionRemoved, "\u2212 m\u00B3", "\u2212 m\u00B3"},
+    {W::FurtherRevisions, "{} further, see the table", "{} weitere, siehe Tabelle"},
+    {W::Moved, "moved", "verschoben"},
+    {W::Changed, "changed", "geändert"},
+    {W::Split, "split", "geteilt"},
+    {W::Merged, "merged", "vereinigt"},
+    {W::Added, "added", "neu"},
+    {W::Removed, "removed", "entfällt"},
 };
 
 constexpr Term<Hatch> kHatchWords[] = {

@@ -82,7 +82,19 @@ enum class SheetWord : std::uint8_t {
     Width,
     WidthMeasured,
     HeightMeasured,
-    Sill
+    Sill,
+    Revisions,
+    RevisionChange,
+    RevisionObject,
+    RevisionAdded,    ///< m3
+    RevisionRemoved,  ///< m3
+    FurtherRevisions,
+    Moved,
+    Changed,
+    Split,
+    Merged,
+    Added,
+    Removed
 };
 
 [[nodiscard]] std::string_view sheetWord(SheetWord word, SheetLanguage language) noexcept;

@@ -364,6 +364,7 @@ private:
         const BlockContext block{content_, volume_, options_, layout_, sheet, number, title, source, facts_.model};
         paintTitleBlock(block, canvas_);
         paintLegend(block, canvas_);
+        paintRevisionList(block, canvas_);
         if (sheet.views.empty()) return;
         addScaleBar(paper.left + 8, paper.bottom - 10, sheet.scale);
         if (!content_.levels.empty()) addDatum({paper.left + 8, paper.bottom - 22});

@@ -209,8 +209,8 @@ void paintLegend(const BlockContext& context, SheetCanvas& canvas) {
     const auto columns = std::max<std::size_t>(1, static_cast<std::size_t>(width / kColumn));
     canvas.text({{left, top - 1.2}, 1.6, std::string(sheetWord(SheetWord::Legend, context.options.language))});
     for (std::size_t n = 0; n < used.size(); ++n) {
-        const double x = left + kColumn * static_cast<double>(n % columns),
-                     y = top + kRow * static_cast<double>(n / columns);
+        const std::size_t row = n / columns;
+        const double x = left + kColumn * static_cast<double>(n % columns), y = top + kRow * static_cast<double>(row);
         const PaperPath box{{x, y}, {x + kSwatch, y}, {x + kSwatch, y + kHigh}, {x, y + kHigh}, {x, y}};
         const auto tiles = hatchTiles();
         const auto tile =

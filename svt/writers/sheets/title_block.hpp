@@ -17,4 +17,7 @@ void paintTitleBlock(const BlockContext& context, SheetCanvas& canvas);
 /// The hatches that the views of the sheet use, with their names; nothing without hatches.
 void paintLegend(const BlockContext& context, SheetCanvas& canvas);
 
+/// The revisions that the views of the sheet show, above the block and the legend; nothing without revisions.
+void paintRevisionList(const BlockContext& context, SheetCanvas& canvas);
+
 }  // namespace svt::writers

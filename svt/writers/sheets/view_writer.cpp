@@ -4,6 +4,8 @@
 #include <svt/writers/drawing/drawing_page.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/field/field_marks.hpp>
+#include <svt/writers/revisions/revision_list.hpp>
+#include <svt/writers/sheet_writer.hpp>
 #include <svt/writers/view_drawing.hpp>
 
 #include <fmt/format.h>
@@ -55,6 +57,18 @@ void addLegend(const FieldLook& look, const DrawingPage& page, SheetCanvas& canv
     canvas.endLayer();
 }
 
+void addRevisionList(const drawing::SectionDrawing& drawing, const DrawingPage& page, SheetCanvas& canvas) {
+    constexpr double left = DrawingPage::kMargin;
+    const std::vector<drawing::Revision> revisions = revisionsOf(drawing);
+    const RevisionList list =
+        makeRevisionList(revisions, left, page.revisionsTop(), page.width - 2 * left, DrawingPage::kMostRevisions);
+    for (const RevisionList::Rule& rule : list.rules)
+        canvas.stroke({{{rule.left, rule.y}, {rule.right, rule.y}}}, {0.18});
+    for (const RevisionList::Text& text : list.texts)
+        canvas.text(
+            {{text.x, text.y}, RevisionList::kText, text.text, text.isEnd ? TextAnchor::End : TextAnchor::Start});
+}
+
 }  // namespace
 
 Result<PdfFile> makeSectionPdf(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
@@ -73,6 +87,11 @@ Result<PdfFile> makeSectionPdf(const drawing::SectionDrawing& drawing, const vol
     options.field = look;
     paintDrawing(drawing, volume, {{page->left, below}, page->low, page->millimetres}, **canvas, options);
     if (look.isShown()) addLegend(look, *page, **canvas);
+    if (hasRevisions(drawing)) {
+        (*canvas)->beginLayer("Revision table");
+        addRevisionList(drawing, *page, **canvas);
+        (*canvas)->endLayer();
+    }
     (*canvas)->beginLayer("Title");
     addTitle(drawing, volume, *page, **canvas);
     (*canvas)->endLayer();

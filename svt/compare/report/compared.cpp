@@ -1,7 +1,8 @@
-#include <apps/cli/diff/compared.hpp>
+#include <svt/compare/compared.hpp>
 
 #include <svt/core/names.hpp>
 #include <svt/drawing/storey_floors.hpp>
+#include <svt/model/classes.hpp>
 
 #include <fmt/format.h>
 
@@ -10,9 +11,21 @@
 #include <numeric>
 #include <string_view>
 
-namespace svt::cli {
+namespace svt::compare {
 
-using compare::Change, compare::ComparisonRow;
+namespace {
+
+Box3d boxOfGrid(const volume::Grid& grid) {
+    Box3d box;
+    const Vec3d last = toDouble(grid.dimension() - Vec3i{1, 1, 1});
+    for (int corner = 0; corner < 8; ++corner)
+        box.add(grid.worldFromIndex({corner & 1 ? last.x : 0.0, corner & 2 ? last.y : 0.0, corner & 4 ? last.z : 0.0}));
+    return box;
+}
+
+}  // namespace
+
+bool overlapInSpace(const volume::Grid& a, const volume::Grid& b) { return boxOfGrid(a).overlaps(boxOfGrid(b)); }
 
 StateFeatures::StateFeatures(const volume::SemanticVolume& volume)
     : labels_(volume.labels.labels), storeys_(drawing::storeysOfLabels(volume.labels)) {}
@@ -38,7 +51,7 @@ std::string otherProperties(const ComparisonRow& row, std::size_t most) {
     if (row.hasOtherClass) names.emplace_back("class");
     if (row.hasOtherName) names.emplace_back("name");
     if (row.hasOtherStorey) names.emplace_back("storey");
-    for (const compare::AttributeChange& attribute : row.attributes) names.emplace_back(attribute.name);
+    for (const AttributeChange& attribute : row.attributes) names.emplace_back(attribute.name);
     std::string text =
         fmt::format("{}", fmt::join(names.begin(), names.begin() + std::ptrdiff_t(std::min(most, names.size())), ", "));
     if (names.size() > most) text += fmt::format(", and {} more", names.size() - most);
@@ -50,7 +63,7 @@ std::optional<double> changedVolume(const ComparisonRow& row) {
     return row.added.value_or(0) + row.removed.value_or(0);
 }
 
-std::vector<std::uint32_t> rowsByVolume(const compare::Comparison& comparison) {
+std::vector<std::uint32_t> rowsByVolume(const Comparison& comparison) {
     std::vector<std::uint32_t> rows;
     for (std::uint32_t r = 0; r < comparison.rows.size(); ++r)
         if (comparison.rows[r].isDifferent()) rows.push_back(r);
@@ -66,7 +79,7 @@ std::vector<std::uint32_t> rowsByVolume(const compare::Comparison& comparison) {
     return rows;
 }
 
-std::vector<std::uint32_t> allRows(const compare::Comparison& comparison) {
+std::vector<std::uint32_t> allRows(const Comparison& comparison) {
     std::vector<std::uint32_t> rows(comparison.rows.size());
     std::iota(rows.begin(), rows.end(), 0U);
     return rows;
@@ -98,11 +111,35 @@ std::vector<ClassSums> sumsByClass(const Compared& compared, std::span<const std
     return sums;
 }
 
+ClassSums sumsOfComponents(const Compared& compared) {
+    std::vector<std::uint32_t> components;
+    for (std::uint32_t r = 0; r < compared.comparison.rows.size(); ++r) {
+        const ComparisonRow& row = compared.comparison.rows[r];
+        const std::string& className = row.is.empty() ? compared.was.labels.labels[row.was.front()].className
+                                                      : compared.is.labels.labels[row.is.front()].className;
+        if (!model::isSpace(className) && model::classRank(className) != model::ClassRank::Building)
+            components.push_back(r);
+    }
+    ClassSums all{{}};
+    bool isBounded = true;
+    for (const ClassSums& sums : sumsByClass(compared, components)) {
+        all.objects += sums.objects;
+        all.unknown += sums.unknown;
+        if (sums.added) all.added = all.added.value_or(0) + *sums.added;
+        if (sums.removed) all.removed = all.removed.value_or(0) + *sums.removed;
+        if (!sums.added && !sums.removed) continue;
+        isBounded = isBounded && sums.bound;
+        if (sums.bound) all.bound = all.bound.value_or(0) + *sums.bound;
+    }
+    if (!isBounded) all.bound.reset();
+    return all;
+}
+
 double withoutRounding(double value) noexcept { return std::round(value * 1e7) / 1e7; }
 
-std::string comparisonSummary(const compare::Comparison& comparison) {
+std::string comparisonSummary(const Comparison& comparison) {
     std::string text;
-    for (std::size_t change = compare::kChangeCount; change-- > 0;)
+    for (std::size_t change = kChangeCount; change-- > 0;)
         if (const std::size_t count = comparison.counts[change]; count > 0)
             text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, nameOf(static_cast<Change>(change)));
     if (text.empty()) text = "no objects";
@@ -110,4 +147,4 @@ std::string comparisonSummary(const compare::Comparison& comparison) {
     return text;
 }
 
-}  // namespace svt::cli
+}  // namespace svt::compare
