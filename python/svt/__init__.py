@@ -23,6 +23,7 @@ from .page import Page
 from .picture import Frame, read_png, write_png
 from .quantities import quantities
 from .section import Axes, Component, Polygon, Section
+from .take_off import TakeOff, contact_areas, take_off
 from .viewer import View
 from .volume import Runs, Volume, build, open
 
@@ -46,14 +47,17 @@ __all__ = [
     "Polygon",
     "Runs",
     "Section",
+    "TakeOff",
     "View",
     "Volume",
     "build",
+    "contact_areas",
     "diff",
     "open",
     "quantities",
     "read",
     "read_png",
     "sample",
+    "take_off",
     "write_png",
 ]

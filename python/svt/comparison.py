@@ -89,12 +89,12 @@ def _differs(row: Mapping[str, Any]) -> bool:
     return row["change"] != "same" or bool(row["attributes"]) or any(name != "id" for name in row["properties"])
 
 
-def _arguments(options: Mapping[str, Any]) -> list[str]:
-    """Keywords as options of the command: spacing=0.2 is --spacing=0.2."""
+def arguments_of(options: Mapping[str, Any], own: set[str], caller: str) -> list[str]:
+    """Keywords as options of the command: spacing=0.2 is --spacing=0.2. `own` are those that the caller sets."""
     arguments = []
     for name, value in options.items():
-        if name in _OWN:
-            raise TypeError(f"svt.diff() has no keyword '{name}'")
+        if name in own:
+            raise TypeError(f"{caller} has no keyword '{name}'")
         option = "--" + name.replace("_", "-")
         if value is None or value is False:
             continue
@@ -107,9 +107,9 @@ def _arguments(options: Mapping[str, Any]) -> list[str]:
     return arguments
 
 
-def _error(done: subprocess.CompletedProcess[bytes]) -> Error:
+def error_of(done: subprocess.CompletedProcess[bytes], caller: str) -> Error:
     """The error that the command printed."""
-    said = done.stderr.decode(errors="replace").strip().splitlines() or ["svt diff ended without a message"]
+    said = done.stderr.decode(errors="replace").strip().splitlines() or [f"{caller} ended without a message"]
     for line in said:
         found = re.fullmatch(r"(?:svt: )?error (E\d+) (\w+): (.*)", line)
         if found:
@@ -155,7 +155,7 @@ def diff(
             else:
                 files.append(os.path.abspath(os.fspath(state)))
         rows = os.path.join(folder, "rows.json")
-        arguments = [command, "diff", *files, "--quiet", *_arguments(options), "--output", rows]
+        arguments = [command, "diff", *files, "--quiet", *arguments_of(options, _OWN, "svt.diff()"), "--output", rows]
         for each in outputs:
             arguments += ["--output", os.path.abspath(os.fspath(each))]
         try:
@@ -163,7 +163,7 @@ def diff(
         except OSError as error:
             raise Error("E101", "CannotOpen", f"{error.strerror}; set SVT_COMMAND", Place(command)) from None
         if done.returncode not in (_EQUAL, _DIFFERENT):
-            raise _error(done)
+            raise error_of(done, "svt diff")
         with open(rows, encoding="utf-8") as file:
             read = json.load(file)
     return Comparison(read["rows"], read["summary"])

@@ -20,9 +20,11 @@ from .model import PathLike
 if TYPE_CHECKING:
     from .volume import Volume
 
-#: Files of a published page that one without a server does not use: threads need headers of the server, and the
-#: compressed copies need its content encoding.
-_UNUSED = re.compile(r"index\.html|preview\.png|sbom\.cdx\.json|languages/template\.json|.*_threads.*|.*\.(br|gz)")
+#: Files of a published page that one without a server does not use: threads need headers of the server, the compressed
+#: copies need its content encoding, and the comparison of two files would add a third to the size.
+_UNUSED = re.compile(
+    r"index\.html|preview\.png|sbom\.cdx\.json|languages/template\.json|.*_threads.*|.*svt_compare.*|.*\.(br|gz)"
+)
 
 
 def _publish(volume: Volume, folder: str) -> pathlib.Path:

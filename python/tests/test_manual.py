@@ -53,7 +53,7 @@ class Manual(unittest.TestCase):
         return names
 
     def test_each_part_with_code_has_a_test(self):
-        tested = {"Work with xarray", "Fields", "Tables", "Maps", "Notebook", "VTK and PyVista"}
+        tested = {"Work with xarray", "Fields", "Tables", "Quantities", "Maps", "Notebook", "VTK and PyVista"}
         self.assertEqual(set(parts()), tested)
 
     def test_fields(self):
@@ -72,6 +72,13 @@ class Manual(unittest.TestCase):
         self.assertIn("BuildingRoom", names["classes"].values)
         self.assertGreater(float(names["area"].max()), 60)
         self.assertGreater(os.path.getsize(path("manual-parts/house.nc")), 10_000)
+
+    @unittest.skipUnless(os.path.exists(COMMAND), "no command at SVT_COMMAND")
+    def test_quantities(self):
+        names = self.run_part("Quantities")
+        self.assertAlmostEqual(names["sums"].net_volume.sum(), names["found"].total["netVolume"], places=4)
+        self.assertGreater(len(names["ground"]), 1)
+        self.assertGreater(names["by_room"]["Kitchen"], 10)
 
     def test_tables(self):
         names = self.run_part("Tables")

@@ -51,8 +51,8 @@ struct ObjectQuantities {
     Trust trust = Trust::Unknown;
     std::optional<double> grossVolume;  ///< netVolume and the voids of the openings; of walls, slabs and the like
     std::optional<double> grossBound;   ///< by which grossVolume may be off in addition to `bound`
-    /// Distance of the two largest parallel faces of a body, if each has at least half of the visible area,
-    /// and if it is the smallest extent.
+    /// Distance of the two largest parallel faces of a component, if each has at least half of the visible area, and if it
+    /// is the smallest extent. Curved walls have that of the two concentric faces. Unknown for buildings and rooms.
     std::optional<double> thickness;
     /// Extents across the thickness: of an upright body horizontally (no width), of others the longer and the shorter.
     std::optional<double> length, width;
@@ -91,6 +91,15 @@ struct ObjectQuantities {
 /// Cost: O(t log t) for the t triangles of each object.
 [[nodiscard]] std::vector<ObjectQuantities> measureObjects(const volume::SemanticVolume& volume,
                                                            std::span<const std::uint32_t> objects, int threads = 0);
+
+/// The buildings of a volume as wholes: labels without parent that are buildings, bridges or tunnels. Each has the sums of
+/// its bodies and their parts; without bodies those of its components; without both those of its surfaces. A figure that
+/// one of them lacks is unknown, and so are lengths of several. Faces between parts count.
+/// \param objects  of measureObjects(), for all labels with geometry
+/// \return one per building, by label. Volumes of parts that overlap add up; see countedVolumes()
+/// Cost: O(n log n).
+[[nodiscard]] std::vector<ObjectQuantities> buildingQuantities(const volume::SemanticVolume& volume,
+                                                               std::span<const ObjectQuantities> objects);
 
 /// The part of an object's volume that counts in sums.
 struct CountedVolume {

@@ -31,7 +31,8 @@ struct TouchingArea {
     double area = 0;  ///< m2
 };
 
-/// The faces of each object by their neighbours, ordered by label and facing. Sheets without volume are passed through.
+/// The faces of each object by their neighbours, ordered by label and facing. Sheets without volume, such as the
+/// surfaces of a room, are passed through.
 /// Faces whose surroundings are the object itself touch nothing, and have no entry. An object without a mesh has no entries.
 /// \param objects  of measureObjects()
 /// \param threads  0: all cores; the result does not depend on it

@@ -1,25 +1,24 @@
 #include <apps/cli/city/city_input.hpp>
-#include <apps/cli/city/feature_sums.hpp>
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/load_volume.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
+#include <apps/cli/quantities/city_take_off.hpp>
+#include <apps/cli/quantities/measure_take_off.hpp>
 #include <apps/cli/quantities/quantity_book.hpp>
 #include <apps/cli/quantities/quantity_settings.hpp>
 #include <apps/cli/quantities/take_off.hpp>
 
 #include <svt/analyze/selection.hpp>
 #include <svt/core/file.hpp>
-#include <svt/model/classes.hpp>
 #include <svt/readers/ifc_quantities.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace svt::cli {
@@ -40,6 +39,8 @@ struct QuantitiesArguments {
     bool exterior = false, stated = false;
     pipeline::BuildOptions build;
     bool json = false, csv = false;
+
+    [[nodiscard]] TakeOffQuestion question() const { return {where, by, formwork, exterior, build.threads, false}; }
 };
 
 // The objects of a query; without one, all components, else all bodies, else all that have geometry.
@@ -52,76 +53,6 @@ Result<Selection> findObjects(const volume::SemanticVolume& volume, const std::s
     if (!objects.empty() && !quantities::isComponent(volume.labels.labels[objects.front()]))
         note("the model has no walls, slabs or other components; the rows are its buildings, rooms and other objects");
     return objects;
-}
-
-// 1 for each label that an object is measured from.
-std::vector<char> partsOf(const volume::SemanticVolume& volume, std::span<const quantities::ObjectQuantities> objects) {
-    std::vector<char> isPart(volume.labels.labels.size(), 0);
-    for (const auto& object : objects)
-        for (const std::uint32_t part : object.parts) isPart[part] = 1;
-    return isPart;
-}
-
-// Terrain, land use, roads. Not a class that no one knows, which may be a building.
-bool isSoil(const volume::Label& label) {
-    return model::classRank(label.className) == model::ClassRank::Other &&
-           model::insideOf(label.className) == model::Inside::Never;
-}
-
-// Objects without a mesh have no faces: their areas stay empty.
-Result<void> addTouchingAreas(const QuantitiesArguments& arguments, TakeOff& takeOff) {
-    const volume::SemanticVolume& volume = takeOff.volume;
-    std::vector<char> isConcrete;
-    if (!arguments.formwork.empty()) {
-        SVT_TRY(concrete, findObjects(volume, arguments.formwork));
-        isConcrete = partsOf(volume, quantities::measureObjects(volume, *concrete, arguments.build.threads));
-    }
-    const auto areas = quantities::findTouchingAreas(volume, takeOff.objects, arguments.build.threads);
-    const std::size_t count = takeOff.objects.size();
-    if (arguments.exterior) takeOff.exterior.resize(count);
-    if (!isConcrete.empty()) {
-        takeOff.formwork.resize(count);
-        takeOff.formworkTop.resize(count);
-    }
-    for (std::size_t n = 0; n < count; ++n) {
-        if (!takeOff.objects[n].outerArea) continue;
-        if (arguments.exterior) {
-            auto& exterior = takeOff.exterior[n].emplace();
-            for (const TouchingArea& area : areas[n])
-                if (area.isOutside) exterior[std::size_t(area.facing)] += area.area;
-        }
-        if (isConcrete.empty() || isConcrete[takeOff.objects[n].parts.front()] == 0) continue;
-        takeOff.formwork[n] = takeOff.formworkTop[n] = 0;
-        for (const TouchingArea& area : areas[n]) {
-            const bool isFree = area.label == volume::kNoLabel ||
-                                (isConcrete[area.label] == 0 && !isSoil(volume.labels.labels[area.label]));
-            if (!isFree) continue;
-            *takeOff.formwork[n] += area.area;
-            if (area.facing == quantities::Facing::Top) *takeOff.formworkTop[n] += area.area;
-        }
-    }
-    return {};
-}
-
-void addTexts(const QuantitiesArguments& arguments, TakeOff& takeOff) {
-    const volume::LabelTable& table = takeOff.volume.labels;
-    const analyze::Extents extents(table);
-    Selection all(table.labels.size());
-    std::iota(all.begin(), all.end(), 0U);
-    const auto valuesOf = [&](const std::string& key) {
-        const std::vector<std::string> ofLabels = valuesOfKey(key, table, extents, all);
-        std::vector<std::string> values;
-        for (const auto& object : takeOff.objects) values.push_back(ofLabels[object.label]);
-        return values;
-    };
-    takeOff.storeys = valuesOf("storey");
-    takeOff.materials = valuesOf("material");
-    takeOff.keys = splitKeys(arguments.by);
-    takeOff.values.resize(takeOff.objects.size());
-    for (const std::string& key : takeOff.keys) {
-        std::vector<std::string> values = valuesOf(key);
-        for (std::size_t n = 0; n < values.size(); ++n) takeOff.values[n].push_back(std::move(values[n]));
-    }
 }
 
 BookAbout bookAbout(const volume::SemanticVolume& volume, const QuantitiesArguments& arguments) {
@@ -215,10 +146,8 @@ Result<int> printTakeOff(const volume::SemanticVolume& volume, const QuantitiesA
         objects = Selection();
     }
     if (!objects) return objects.error();
-    TakeOff takeOff{volume, quantities::measureObjects(volume, *objects, arguments.build.threads), {}};
-    takeOff.counted = quantities::countedVolumes(volume, takeOff.objects);
-    if (arguments.exterior || !arguments.formwork.empty()) SVT_DO(addTouchingAreas(arguments, takeOff));
-    addTexts(arguments, takeOff);
+    TakeOff takeOff{volume, quantities::measureObjects(volume, *objects, arguments.build.threads)};
+    SVT_DO(completeTakeOff(arguments.question(), takeOff));
     SVT_TRY(rows, shownTable(arguments, takeOff, false));
     SVT_DO(writeTakeOff(arguments, takeOff, *rows));
     TerminalProgress::hide();
@@ -238,8 +167,8 @@ Result<int> printTakeOff(const volume::SemanticVolume& volume, const QuantitiesA
 }
 
 // Writes and prints the rows of --between.
-Result<int> printContactTable(const volume::SemanticVolume& volume, const QuantitiesArguments& arguments, Table table,
-                              std::size_t withoutMesh, double sum, double sumOfB) {
+Result<int> printContactTable(const volume::SemanticVolume& volume, const QuantitiesArguments& arguments,
+                              const Table& table, std::size_t withoutMesh, double sum, double sumOfB) {
     std::vector<std::string> notes;
     if (withoutMesh > 0)
         notes.push_back(fmt::format("{} objects have no mesh; their contacts are unknown", withoutMesh));
@@ -317,7 +246,26 @@ Result<int> printContacts(const volume::SemanticVolume& volume, const Quantities
         sum += area;
         sumOfB += ofB;
     }
-    return printContactTable(volume, arguments, std::move(table), withoutMesh, sum, sumOfB);
+    return printContactTable(volume, arguments, table, withoutMesh, sum, sumOfB);
+}
+
+// Rows and sums of a city, tile by tile.
+Result<int> measureCity(const QuantitiesArguments& arguments) {
+    const std::string ending = endingOf(arguments.output);
+    if (ending == ".xlsx" || ending == ".ifc")
+        return Error(Code::BadArgument, "rows of a city go to .csv, .json or .parquet");
+    if (!arguments.between.empty() || arguments.stated || !arguments.settingsFile.empty())
+        return Error(Code::BadArgument,
+                     "--between, --stated and --settings need one model; take a part of the city (svt city extract)");
+    for (const std::string& query : {arguments.where, arguments.formwork})
+        if (!query.empty()) SVT_DO(model::Query::parse(query));
+    CityTakeOff take{arguments.input, arguments.output, arguments.question()};
+    take.question.isPart = true;
+    take.form = arguments.json              ? CityTakeOff::Form::JsonText
+                : arguments.csv             ? CityTakeOff::Form::Csv
+                : !arguments.output.empty() ? CityTakeOff::Form::None
+                                            : CityTakeOff::Form::Text;
+    return runCityTakeOff(take);
 }
 
 Result<int> runQuantities(const QuantitiesArguments& given) {
@@ -326,14 +274,15 @@ Result<int> runQuantities(const QuantitiesArguments& given) {
         SVT_TRY(settings, readQuantitySettings(arguments.settingsFile));
         arguments.settings = std::move(*settings);
     }
-    if (isCity(arguments.input))
-        return Error(Code::BadArgument,
-                     "'" + arguments.input.string() + "' is a city; measure parts of it (svt city extract)");
+    if (isCity(arguments.input)) return measureCity(arguments);
     if (endingOf(arguments.output) == ".ifc" && contentOf(arguments.input) != FileContent::Ifc)
         return Error(Code::BadArgument,
                      "'" + arguments.input.string() +
                          "' is not an IFC file; a copy with quantities (-o F.ifc) needs one as input");
-    if (endingOf(arguments.output) == ".ifc" && !arguments.between.empty())
+    const std::string ending = endingOf(arguments.output);
+    if (arguments.stated && !arguments.by.empty() && !arguments.json && ending != ".json" && ending != ".xlsx")
+        return Error(Code::BadArgument, "a table has either --stated or --by; take --json, or -o with .json or .xlsx");
+    if (ending == ".ifc" && !arguments.between.empty())
         return Error(Code::BadArgument, "IFC files have no contacts; write them as .csv, .json, .parquet or .xlsx");
     if (!arguments.between.empty() && arguments.between.size() != 2)
         return Error(Code::BadArgument, "--between needs two queries; give it twice");
@@ -350,7 +299,7 @@ Result<int> runQuantities(const QuantitiesArguments& given) {
 Members<QuantitiesArguments> membersOf(const QuantitiesArguments*) noexcept {
     using All = QuantitiesArguments;
     static constexpr Member<All> kMembers[] = {
-        modelInput<&All::input>("a .svt or a model file"),
+        modelInput<&All::input>(),
         member<&All::where>("--where", "only the objects that a query selects, such as 'class=IfcWall and storey=EG'",
                             {.value = "QUERY", .otherwise = "all components"}),
         member<&All::by>("--by", "sums by class, material, storey or other attributes, such as material,storey",
@@ -371,7 +320,7 @@ Members<QuantitiesArguments> membersOf(const QuantitiesArguments*) noexcept {
         member<&All::stated>("--stated",
                              "compare the quantities that the file states (Qto sets, BaseQuantities) with the measured "
                              "ones",
-                             {.group = "Areas", .excludes = "--by"}),
+                             {.group = "Areas"}),
         member<&All::json>("--json", "print rows, sums and assumptions as JSON on stdout",
                            {.group = "Output", .excludes = "--csv"}),
         member<&All::csv>("--csv", "print the rows as CSV on stdout", {.group = "Output"}),

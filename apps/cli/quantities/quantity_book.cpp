@@ -72,14 +72,14 @@ Result<std::string> takeOffBook(const TakeOff& takeOff, bool hasStated, const Bo
     const TakeOff keyed = withKeys(takeOff);
     SVT_TRY(sums, withQuantitySettings(takeOffSums(keyed, true), settings, keyed.keys.size() + 1));
     sheets.push_back(quantitySheet("Sums", std::move(*sums), settings));
-    if (!takeOff.exterior.empty()) {
+    if (takeOff.hasExterior) {
         std::vector<std::string> columns{"id", "class", "name", "exteriorArea"};
         for (const std::string_view facing : quantities::kFacingNames)
             columns.push_back("exterior_" + std::string(facing));
         SVT_TRY(sheet, partSheet("Exterior", rows, std::move(columns), "exteriorArea", settings));
         sheets.push_back(std::move(*sheet));
     }
-    if (!takeOff.formwork.empty()) {
+    if (takeOff.hasFormwork) {
         SVT_TRY(sheet, partSheet("Formwork", rows, {"id", "class", "name", "formworkArea", "formworkTopArea"},
                                  "formworkArea", settings));
         sheets.push_back(std::move(*sheet));

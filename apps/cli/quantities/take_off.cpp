@@ -60,11 +60,15 @@ constexpr std::array<FigureText, kFigures> kTexts{{{"netVolume", "net m3", true,
                                                    {"perimeter", "", false, &ObjectQuantities::perimeter}}};
 using Figures = std::array<Known, kFigures>;
 
-bool isAsked(const TakeOff& takeOff, std::size_t figure) {
-    if (figure == kExterior) return !takeOff.exterior.empty();
-    if (figure == kFormwork || figure == kFormworkTop) return !takeOff.formwork.empty();
-    return true;
-}
+// The figures that are asked for beside the quantities.
+struct Asked {
+    bool exterior = false, formwork = false;
+    [[nodiscard]] bool has(std::size_t figure) const {
+        if (figure == kExterior) return exterior;
+        return (figure != kFormwork && figure != kFormworkTop) || formwork;
+    }
+};
+Asked askedOf(const TakeOff& takeOff) { return {takeOff.hasExterior, takeOff.hasFormwork}; }
 
 Figures figuresOf(const TakeOff& takeOff, std::size_t n) {
     const ObjectQuantities& object = takeOff.objects[n];
@@ -117,18 +121,6 @@ struct Sums {
     }
 };
 
-Sums sumOfAll(const TakeOff& takeOff) {
-    Sums sums;
-    for (std::size_t n = 0; n < takeOff.objects.size(); ++n) sums.add(takeOff, n);
-    return sums;
-}
-
-std::map<std::vector<std::string>, Sums> sumsByKeys(const TakeOff& takeOff) {
-    std::map<std::vector<std::string>, Sums> groups;
-    for (std::size_t n = 0; n < takeOff.objects.size(); ++n) groups[takeOff.values[n]].add(takeOff, n);
-    return groups;
-}
-
 // A tenth of a cubic centimetre or the like, so that no report has digits from rounding errors.
 double withoutNoise(double value) { return std::round(value * 1e7) / 1e7; }
 Cell cellOf(const Known& value) { return value ? Cell(withoutNoise(*value)) : Cell(); }
@@ -140,23 +132,23 @@ Cell boundCell(const Known& bound) { return bound ? Cell(*bound) : Cell(); }
 
 std::string exteriorName(std::size_t way) { return "exterior_" + std::string(quantities::kFacingNames[way]); }
 
-void addFigureColumns(const TakeOff& takeOff, bool isSum, std::vector<Column>& columns) {
+void addFigureColumns(const Asked& asked, bool isSum, std::vector<Column>& columns) {
     for (std::size_t f = 0; f < kFigures; ++f)
-        if (isAsked(takeOff, f) && (!isSum || kTexts[f].isSummed)) columns.push_back({kTexts[f].name, kTexts[f].title});
-    if (!takeOff.exterior.empty())
+        if (asked.has(f) && (!isSum || kTexts[f].isSummed)) columns.push_back({kTexts[f].name, kTexts[f].title});
+    if (asked.exterior)
         for (std::size_t way = 0; way < quantities::kFacingNames.size(); ++way)
             columns.push_back({exteriorName(way), std::string(quantities::kFacingNames[way]) + " m2"});
 }
 
-void addFigures(const TakeOff& takeOff, const Figures& figures, bool isSum, bool hasOnlySums, Row& row) {
+void addFigures(const Asked& asked, const Figures& figures, bool isSum, bool hasOnlySums, Row& row) {
     for (std::size_t f = 0; f < kFigures; ++f) {
-        if (!isAsked(takeOff, f) || (hasOnlySums && !kTexts[f].isSummed)) continue;
+        if (!asked.has(f) || (hasOnlySums && !kTexts[f].isSummed)) continue;
         row.push_back(isSum && !kTexts[f].isSummed ? Cell() : cellOf(figures[f]));
     }
 }
 
-void addExterior(const TakeOff& takeOff, const std::array<Known, 10>& exterior, Row& row) {
-    if (takeOff.exterior.empty()) return;
+void addExterior(const Asked& asked, const std::array<Known, 10>& exterior, Row& row) {
+    if (!asked.exterior) return;
     for (const Known& way : exterior) row.push_back(cellOf(way));
 }
 
@@ -167,16 +159,16 @@ std::array<Known, 10> exteriorOf(const TakeOff& takeOff, std::size_t n) {
     return exterior;
 }
 
-Json sumsJson(const TakeOff& takeOff, const Sums& sums) {
+Json jsonOf(const Asked& asked, const Sums& sums) {
     Json json;
     json["objects"] = sums.objects;
     for (std::size_t f = 0; f < kFigures; ++f) {
-        if (!kTexts[f].isSummed || !isAsked(takeOff, f)) continue;
+        if (!kTexts[f].isSummed || !asked.has(f)) continue;
         json[kTexts[f].name] = jsonOf(sums.figures[f]);
         if (sums.unknown[f] > 0) json["unknown"][kTexts[f].name] = sums.unknown[f];
     }
     json["bound"] = sums.figures[kNet] && sums.bound ? Json(*sums.bound) : Json();
-    if (!takeOff.exterior.empty())
+    if (asked.exterior)
         for (std::size_t way = 0; way < sums.exterior.size(); ++way)
             json["exterior"][std::string(quantities::kFacingNames[way])] = jsonOf(sums.exterior[way]);
     return json;
@@ -248,21 +240,113 @@ std::vector<std::string> takeOffAssumptions(const TakeOff& takeOff) {
         "a void is as deep as the body is thick; niches and recesses do not count",
         "the volume of a mesh that was closed by caps refers to the closed mesh; its bound is unknown",
         "space that several objects share counts once in sums"};
-    if (!takeOff.exterior.empty()) {
+    if (takeOff.hasExterior) {
         list.emplace_back("north is +y of the coordinate reference system");
         list.emplace_back("outside air is air that is connected to the border of the model");
     }
-    if (!takeOff.formwork.empty())
+    if (takeOff.hasFormwork)
         list.emplace_back(
             "soil is only where terrain is a body: below a terrain surface, faces count as free; faces that look up "
             "need formwork");
     return list;
 }
 
+struct TakeOffTotals::All {
+    Asked asked;
+    std::vector<std::string> keys;
+    Sums total;
+    std::map<std::vector<std::string>, Sums> groups;  // by the values of the keys
+    std::size_t inVoxels = 0;                         // objects whose volume is counted
+};
+
+TakeOffTotals::TakeOffTotals() : all_(std::make_unique<All>()) {}
+TakeOffTotals::TakeOffTotals(TakeOffTotals&&) noexcept = default;
+TakeOffTotals& TakeOffTotals::operator=(TakeOffTotals&&) noexcept = default;
+TakeOffTotals::~TakeOffTotals() = default;
+
+void TakeOffTotals::add(const TakeOff& takeOff) {
+    all_->asked = askedOf(takeOff);
+    all_->keys = takeOff.keys;
+    for (std::size_t n = 0; n < takeOff.objects.size(); ++n) {
+        all_->total.add(takeOff, n);
+        if (!takeOff.keys.empty()) all_->groups[takeOff.values[n]].add(takeOff, n);
+    }
+    for (const quantities::CountedVolume& one : takeOff.counted) all_->inVoxels += one.volume && !one.isExact;
+}
+
+std::size_t TakeOffTotals::objects() const noexcept { return all_->total.objects; }
+
+Row TakeOffTotals::totalRow() const {
+    const Sums& sums = all_->total;
+    Row row{"(sum)", Cell(), fmt::format("{} objects", sums.objects), Cell(), Cell()};
+    addFigures(all_->asked, sums.figures, true, false, row);
+    addExterior(all_->asked, sums.exterior, row);
+    row.insert(row.end(), {Cell(), Cell(), boundCell(sums.figures[kNet] ? sums.bound : Known()), Cell()});
+    return row;
+}
+
+Table TakeOffTotals::sums(bool hasSum) const {
+    Table table;
+    for (const std::string& key : all_->keys) table.columns.push_back({key, key, 0});
+    table.columns.push_back({"objects", "objects", 0});
+    addFigureColumns(all_->asked, true, table.columns);
+    table.columns.push_back({"bound", "+- m3"});
+    const auto addRow = [&](Row row, const Sums& sums) {
+        row.emplace_back(sums.objects);
+        addFigures(all_->asked, sums.figures, true, true, row);
+        addExterior(all_->asked, sums.exterior, row);
+        row.push_back(boundCell(sums.figures[kNet] ? sums.bound : Known()));
+        table.rows.push_back(std::move(row));
+    };
+    for (const auto& [values, sums] : all_->groups) {
+        Row row;
+        for (const std::string& value : values) row.push_back(cellOf(value));
+        addRow(std::move(row), sums);
+    }
+    if (hasSum && all_->total.objects > 0) {
+        Row row(all_->keys.size());
+        row.front() = "(sum)";
+        addRow(std::move(row), all_->total);
+    }
+    return table;
+}
+
+Json TakeOffTotals::sumsJson() const {
+    Json sums = Json::array();
+    for (const auto& [values, sum] : all_->groups) {
+        Json row = jsonOf(all_->asked, sum);
+        for (std::size_t k = 0; k < values.size(); ++k) row["by"][all_->keys[k]] = jsonOf(values[k]);
+        sums.push_back(std::move(row));
+    }
+    return sums;
+}
+
+Json TakeOffTotals::totalJson() const { return jsonOf(all_->asked, all_->total); }
+
+std::vector<std::string> TakeOffTotals::notes(bool hasGross) const {
+    std::vector<std::string> notes;
+    const Sums& sums = all_->total;
+    if (sums.unknown[kNet] > 0)
+        notes.push_back(
+            fmt::format("the net volume of {} of {} objects is unknown: they are surfaces, or too small for "
+                        "the voxels; sums exclude them",
+                        sums.unknown[kNet], sums.objects));
+    if (const std::size_t unknown = sums.unknown[kGross] - std::min(sums.unknown[kGross], sums.unknown[kNet]);
+        unknown > 0 && hasGross)
+        notes.push_back(
+            fmt::format("the gross volume of {} objects with a net volume is unknown: they lack two parallel "
+                        "faces or a closed mesh, or are not walls or slabs; sums of gross volumes exclude them",
+                        unknown));
+    if (all_->inVoxels > 0)
+        notes.push_back(fmt::format("the volumes of {} objects in sums are counted in voxels", all_->inVoxels));
+    return notes;
+}
+
 Table takeOffTable(const TakeOff& takeOff, bool hasSum) {
     Table table;
+    const Asked asked = askedOf(takeOff);
     table.columns = {{"id", "id"}, {"class", "class"}, {"name", "name"}, {"storey", "storey"}, {"material"}};
-    addFigureColumns(takeOff, false, table.columns);
+    addFigureColumns(asked, false, table.columns);
     table.columns.insert(table.columns.end(),
                          {{"openings", "", 0}, {"trust", "trust"}, {"bound", "+- m3"}, {"grossBound"}});
     for (std::size_t n = 0; n < takeOff.objects.size(); ++n) {
@@ -270,48 +354,25 @@ Table takeOffTable(const TakeOff& takeOff, bool hasSum) {
         const volume::Label& label = takeOff.volume.labels.labels[object.label];
         Row& row = table.rows.emplace_back();
         row = {label.id, label.className, label.name, cellOf(takeOff.storeys[n]), cellOf(takeOff.materials[n])};
-        addFigures(takeOff, figuresOf(takeOff, n), false, false, row);
-        addExterior(takeOff, exteriorOf(takeOff, n), row);
+        addFigures(asked, figuresOf(takeOff, n), false, false, row);
+        addExterior(asked, exteriorOf(takeOff, n), row);
         row.push_back(object.openings ? Cell(*object.openings) : Cell());
         row.push_back(cellOf(std::string(nameOf(object.trust))));
         row.push_back(boundCell(object.netVolume ? object.bound : Known()));
         row.push_back(boundCell(object.grossVolume ? object.grossBound : Known()));
     }
     if (hasSum && !takeOff.objects.empty()) {
-        const Sums sums = sumOfAll(takeOff);
-        Row& row = table.rows.emplace_back();
-        row = {"(sum)", Cell(), fmt::format("{} objects", sums.objects), Cell(), Cell()};
-        addFigures(takeOff, sums.figures, true, false, row);
-        addExterior(takeOff, sums.exterior, row);
-        row.insert(row.end(), {Cell(), Cell(), boundCell(sums.figures[kNet] ? sums.bound : Known()), Cell()});
+        TakeOffTotals totals;
+        totals.add(takeOff);
+        table.rows.push_back(totals.totalRow());
     }
     return table;
 }
 
 Table takeOffSums(const TakeOff& takeOff, bool hasSum) {
-    Table table;
-    for (const std::string& key : takeOff.keys) table.columns.push_back({key, key, 0});
-    table.columns.push_back({"objects", "objects", 0});
-    addFigureColumns(takeOff, true, table.columns);
-    table.columns.push_back({"bound", "+- m3"});
-    const auto addRow = [&](Row row, const Sums& sums) {
-        row.emplace_back(sums.objects);
-        addFigures(takeOff, sums.figures, true, true, row);
-        addExterior(takeOff, sums.exterior, row);
-        row.push_back(boundCell(sums.figures[kNet] ? sums.bound : Known()));
-        table.rows.push_back(std::move(row));
-    };
-    for (const auto& [values, sums] : sumsByKeys(takeOff)) {
-        Row row;
-        for (const std::string& value : values) row.push_back(cellOf(value));
-        addRow(std::move(row), sums);
-    }
-    if (hasSum && !takeOff.objects.empty()) {
-        Row row(takeOff.keys.size());
-        row.front() = "(sum)";
-        addRow(std::move(row), sumOfAll(takeOff));
-    }
-    return table;
+    TakeOffTotals totals;
+    totals.add(takeOff);
+    return totals.sums(hasSum);
 }
 
 std::vector<StatedFigure> statedFigures(const ObjectQuantities& object) {
@@ -345,66 +406,53 @@ Table statedTable(const TakeOff& takeOff) {
     return table;
 }
 
+Json takeOffRowJson(const TakeOff& takeOff, std::size_t n) {
+    const ObjectQuantities& object = takeOff.objects[n];
+    const volume::Label& label = takeOff.volume.labels.labels[object.label];
+    const Figures figures = figuresOf(takeOff, n);
+    Json row;
+    row["id"] = label.id;
+    row["class"] = label.className;
+    row["name"] = label.name;
+    row["storey"] = jsonOf(takeOff.storeys[n]);
+    row["material"] = jsonOf(takeOff.materials[n]);
+    for (const Figure f : {kNet, kGross, kSide, kTop, kBottom, kExterior, kOpening, kFormwork})
+        row[kTexts[f].name] = jsonOf(figures[f]);
+    row["trust"] = jsonOf(std::string(nameOf(object.trust)));
+    row["bound"] = object.netVolume && object.bound ? Json(*object.bound) : Json();
+    return row;
+}
+
+Json takeOffExteriorJson(const TakeOff& takeOff, std::size_t n) {
+    Json row;
+    row["id"] = takeOff.volume.labels.labels[takeOff.objects[n].label].id;
+    const std::array<Known, 10> areas = exteriorOf(takeOff, n);
+    for (std::size_t way = 0; way < areas.size(); ++way)
+        row[std::string(quantities::kFacingNames[way])] = jsonOf(areas[way]);
+    return row;
+}
+
 Json takeOffJson(const TakeOff& takeOff, bool hasStated) {
     Json json;
+    TakeOffTotals totals;
+    totals.add(takeOff);
     Json& rows = json["rows"] = Json::array();
-    for (std::size_t n = 0; n < takeOff.objects.size(); ++n) {
-        const ObjectQuantities& object = takeOff.objects[n];
-        const volume::Label& label = takeOff.volume.labels.labels[object.label];
-        const Figures figures = figuresOf(takeOff, n);
-        Json& row = rows.emplace_back();
-        row["id"] = label.id;
-        row["class"] = label.className;
-        row["name"] = label.name;
-        row["storey"] = jsonOf(takeOff.storeys[n]);
-        row["material"] = jsonOf(takeOff.materials[n]);
-        for (const Figure f : {kNet, kGross, kSide, kTop, kBottom, kExterior, kOpening, kFormwork})
-            row[kTexts[f].name] = jsonOf(figures[f]);
-        row["trust"] = jsonOf(std::string(nameOf(object.trust)));
-        row["bound"] = object.netVolume && object.bound ? Json(*object.bound) : Json();
-    }
-    if (!takeOff.keys.empty()) {
-        Json& sums = json["sums"] = Json::array();
-        for (const auto& [values, sum] : sumsByKeys(takeOff)) {
-            Json row = sumsJson(takeOff, sum);
-            for (std::size_t k = 0; k < values.size(); ++k) row["by"][takeOff.keys[k]] = jsonOf(values[k]);
-            sums.push_back(std::move(row));
-        }
-    }
-    if (!takeOff.exterior.empty()) {
+    for (std::size_t n = 0; n < takeOff.objects.size(); ++n) rows.push_back(takeOffRowJson(takeOff, n));
+    if (!takeOff.keys.empty()) json["sums"] = totals.sumsJson();
+    if (takeOff.hasExterior) {
         Json& exterior = json["exterior"] = Json::array();
-        for (std::size_t n = 0; n < takeOff.objects.size(); ++n) {
-            Json& row = exterior.emplace_back();
-            row["id"] = takeOff.volume.labels.labels[takeOff.objects[n].label].id;
-            const std::array<Known, 10> areas = exteriorOf(takeOff, n);
-            for (std::size_t way = 0; way < areas.size(); ++way)
-                row[std::string(quantities::kFacingNames[way])] = jsonOf(areas[way]);
-        }
+        for (std::size_t n = 0; n < takeOff.objects.size(); ++n) exterior.push_back(takeOffExteriorJson(takeOff, n));
     }
     if (hasStated) json["stated"] = tableRows(statedTable(takeOff));
-    json["total"] = sumsJson(takeOff, sumOfAll(takeOff));
+    json["total"] = totals.totalJson();
     json["assumptions"] = takeOffAssumptions(takeOff);
     return json;
 }
 
 std::vector<std::string> takeOffNotes(const TakeOff& takeOff) {
-    std::vector<std::string> notes;
-    const Sums sums = sumOfAll(takeOff);
-    if (sums.unknown[kNet] > 0)
-        notes.push_back(
-            fmt::format("the net volume of {} of {} objects is unknown: they are surfaces, or too small for "
-                        "the voxels; sums exclude them",
-                        sums.unknown[kNet], sums.objects));
-    if (const std::size_t unknown = sums.unknown[kGross] - std::min(sums.unknown[kGross], sums.unknown[kNet]);
-        unknown > 0)
-        notes.push_back(
-            fmt::format("the gross volume of {} objects with a net volume is unknown: they lack two parallel "
-                        "faces or a closed mesh, or are not walls or slabs; sums of gross volumes exclude them",
-                        unknown));
-    std::size_t counted = 0;
-    for (const quantities::CountedVolume& one : takeOff.counted) counted += one.volume && !one.isExact;
-    if (counted > 0) notes.push_back(fmt::format("the volumes of {} objects in sums are counted in voxels", counted));
-    return notes;
+    TakeOffTotals totals;
+    totals.add(takeOff);
+    return totals.notes();
 }
 
 }  // namespace svt::cli

@@ -5,6 +5,7 @@
 #include <svt/core/parallel.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/quantities/measure/plate.hpp>
+#include <svt/quantities/measure/ring.hpp>
 #include <svt/quantities/measure/silhouette.hpp>
 
 #include <algorithm>
@@ -92,7 +93,7 @@ public:
         result.sideArea = sums.side;
         result.outerArea = sums.all();
         result.height = sums.highest - sums.lowest;
-        if (withFaces == 1 && solid != nullptr) measurePlate(all, result);
+        if (withFaces == 1 && solid != nullptr && isComponent(labels_[label])) measureThinBody(all, result);
         return result;
     }
 
@@ -148,18 +149,32 @@ private:
         result.trust = std::max(result.trust, trust);
     }
 
-    void measurePlate(std::span<const Corners> triangles, ObjectQuantities& result) const {
+    // A thin body, seen across its thickness.
+    struct Seen {
+        Silhouette silhouette;
+        double thickness = 0, deepest = 0;   // deepest: with all pilasters
+        double leastFill = 1, mostFill = 1;  // volume of a void by its area times the thickness
+        bool isUpright = false, isClosed = false;
+    };
+
+    static std::optional<Seen> seenPlate(std::span<const Corners> triangles) {
         const auto plate = findPlate(triangles);
-        if (!plate) return;
+        if (!plate) return std::nullopt;
         const Vec3d up = cross(plate->normal, plate->along);
         const auto isOn = [&](const Corners& t, double place) {
             return std::all_of(t.begin(), t.end(),
                                [&](const Vec3d& p) { return std::abs(dot(p, plate->normal) - place) <= kFlatness; });
         };
         std::vector<FlatTriangle> flat;
+        double high = -1e300, low = 1e300, across = 0;
         for (const Corners& t : triangles) {
+            for (const Vec3d& p : t) {
+                high = std::max(high, dot(p, plate->normal));
+                low = std::min(low, dot(p, plate->normal));
+            }
             const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
             const double facing = dot(normal, plate->normal);
+            if (std::abs(facing) < 0.5 * length(normal)) across += length(normal) / 2;
             if (std::abs(facing) <= 1e-6 * length(normal)) continue;
             const bool isBack = facing < 0;
             if (isBack && !isOn(t, plate->back)) continue;
@@ -167,45 +182,70 @@ private:
             for (std::size_t c = 0; c < 3; ++c) f.corners[c] = {dot(t[c], plate->along), dot(t[c], up)};
             f.claim = isBack ? kBack : isOn(t, plate->front) ? kFront : kSeen;
         }
-        const auto silhouette = silhouetteOf(flat, plate->isUpright());
-        if (!silhouette) return;
-        const double u = silhouette->high[0] - silhouette->low[0], v = silhouette->high[1] - silhouette->low[1];
-        if (plate->thickness() > std::min(u, v) + kFlatness) return;  // the ends of a round column
-        result.thickness = plate->thickness();
-        result.length = plate->isUpright() ? u : std::max(u, v);
-        if (!plate->isUpright()) result.width = std::min(u, v);
-        if (plate->isUpright()) result.sideArea = silhouette->area;
-        result.perimeter = silhouette->perimeter;
-        if (mayHaveOpenings(labels_[result.label])) addVoids(*silhouette, *plate, triangles, result);
+        auto silhouette = silhouetteOf(flat, plate->isUpright());
+        if (!silhouette) return std::nullopt;
+        // Walls around a courtyard are not a slab with a hole: most of their faces stand upright.
+        const double least = silhouette->voids.empty() ? 0.45 : 0.9;
+        if (!plate->isUpright() && 2 * silhouette->area < least * across) return std::nullopt;
+        return Seen{std::move(*silhouette), plate->thickness(), high - low, 1, 1, plate->isUpright(), false};
+    }
+
+    // A closed ring has several cuts; most voids are whole at the best one.
+    static std::optional<Seen> seenRing(std::span<const Corners> triangles) {
+        std::optional<Seen> best;
+        double most = -1;
+        for (const UnrolledRing& ring : unrollRing(triangles)) {
+            auto silhouette = silhouetteOf(ring.triangles, true);
+            if (!silhouette) continue;
+            double area = 0;
+            for (const Void& one : silhouette->voids) area += one.area;
+            if (area <= most) continue;
+            most = area;
+            best = Seen{std::move(*silhouette), ring.thickness(), ring.highest - ring.lowest,
+                        ring.leastFill,         ring.mostFill,    true,
+                        ring.isClosed};
+        }
+        return best;
+    }
+
+    void measureThinBody(std::span<const Corners> triangles, ObjectQuantities& result) const {
+        auto seen = seenPlate(triangles);
+        // The flat ends of a curved wall are a plate as well.
+        if (!seen || !seen->isUpright)
+            if (auto ring = seenRing(triangles); ring && (!seen || ring->thickness < seen->thickness))
+                seen = std::move(ring);
+        if (!seen) return;
+        const Silhouette& silhouette = seen->silhouette;
+        const double u = silhouette.high[0] - silhouette.low[0], v = silhouette.high[1] - silhouette.low[1];
+        if (seen->thickness > std::min(u, v) + kFlatness) return;  // the ends of a round column
+        result.thickness = seen->thickness;
+        result.length = seen->isUpright ? u : std::max(u, v);
+        if (!seen->isUpright) result.width = std::min(u, v);
+        if (seen->isUpright) result.sideArea = silhouette.area;
+        if (!seen->isClosed) result.perimeter = silhouette.perimeter;
+        if (mayHaveOpenings(labels_[result.label])) addVoids(*seen, result);
     }
 
     // A void is as deep as the wall is thick. Thinner material around it is a part of it to an unknown degree: half of it
     // is taken, and the other half is the bound.
-    static void addVoids(const Silhouette& silhouette, const Plate& plate, std::span<const Corners> triangles,
-                         ObjectQuantities& result) {
-        double high = -1e300, low = 1e300;
-        for (const Corners& t : triangles)
-            for (const Vec3d& p : t) {
-                high = std::max(high, dot(p, plate.normal));
-                low = std::min(low, dot(p, plate.normal));
-            }
-        const double deepest = high - low;
+    static void addVoids(const Seen& seen, ObjectQuantities& result) {
         double area = 0, closed = 0, bound = 0;
         bool isBounded = true;
-        for (const Void& one : silhouette.voids) {
+        for (const Void& one : seen.silhouette.voids) {
             area += one.area;
-            closed += plate.thickness() * one.area;
+            closed += seen.thickness * one.area * (seen.leastFill + seen.mostFill) / 2;
+            bound += seen.thickness * one.area * (seen.mostFill - seen.leastFill) / 2;
             if (!one.rebate) {
                 isBounded = false;
             } else if (*one.rebate > 0) {
                 const bool isReveal = *one.rebate <= one.area;
-                closed += isReveal ? plate.thickness() * *one.rebate / 2 : 0;
-                bound += plate.thickness() * *one.rebate / (isReveal ? 2 : 1);
-                bound += (deepest - plate.thickness()) * (one.area + *one.rebate);
+                closed += isReveal ? seen.thickness * *one.rebate / 2 : 0;
+                bound += seen.thickness * *one.rebate / (isReveal ? 2 : 1);
+                bound += (seen.deepest - seen.thickness) * (one.area + *one.rebate);
             }
         }
         result.openingArea = area;
-        result.openings = silhouette.voids.size();
+        result.openings = seen.silhouette.voids.size();
         if (!result.netVolume) return;
         result.grossVolume = *result.netVolume + closed;
         if (isBounded) result.grossBound = bound;

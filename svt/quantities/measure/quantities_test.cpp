@@ -244,6 +244,36 @@ TEST(Quantities, OfARoundBodyHaveNoThickness) {
     EXPECT_FALSE(row.thickness || row.openingArea || row.openings || row.grossVolume || row.length);
 }
 
+// Four walls in one body are not a slab with a hole. Of three walls, the middle one has the largest faces.
+TEST(Quantities, OfWallsAroundACourtyardHaveNoOpenings) {
+    Shape court{"court", "BuildingConstructiveElement", rectangle(0, 0, 6, 6), {rectangle(0.3, 0.3, 5.7, 5.7, true)}};
+    Shape three{"three", "BuildingConstructiveElement"};
+    three.outer = {{10, 0}, {16, 0}, {16, 6}, {15.7, 6}, {15.7, 0.3}, {10.3, 0.3}, {10.3, 6}, {10, 6}};
+    for (Shape* shape : {&court, &three}) {
+        shape->isFlat = true;
+        shape->thickness = 2.8;
+    }
+    const Measured measured({court, three});
+    const ObjectQuantities& row = measured["court"];
+    EXPECT_NEAR(row.netVolume.value(), (36 - 5.4 * 5.4) * 2.8, 1e-3);
+    EXPECT_FALSE(row.thickness || row.openingArea || row.openings || row.grossVolume || row.length);
+    EXPECT_NEAR(measured["three"].thickness.value(), 0.3, 1e-5);
+    EXPECT_EQ(measured["three"].grossVolume, measured["three"].netVolume);
+}
+
+// A building is not a wall, whatever its form is.
+TEST(Quantities, OfBuildingsHaveAllSides) {
+    Shape block{"block", "Building", rectangle(0, 0, 6, 3)};
+    block.thickness = 2;
+    const Measured measured({block});
+    const ObjectQuantities& row = measured["block"];
+    EXPECT_NEAR(row.sideArea.value(), 2 * (6 * 3 + 2 * 3), 1e-3);
+    EXPECT_FALSE(row.thickness || row.length);
+    const auto buildings = buildingQuantities(measured.volume, measured.rows);
+    ASSERT_EQ(buildings.size(), 1u);
+    EXPECT_EQ(buildings.front().netVolume, row.netVolume);
+}
+
 // SVT closes the missing back by a cap: the volume is that of the closed body, and no bound is known.
 TEST(Quantities, NameTheirSource) {
     Shape open{"open", "BuildingConstructiveElement", rectangle(0, 0, 4, 3)};

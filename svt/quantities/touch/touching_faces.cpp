@@ -13,6 +13,7 @@
 namespace svt::quantities {
 namespace {
 
+constexpr int kMostSteps = 3, kMostStepsThroughSheets = 5;  // of half a voxel
 constexpr double kMostPoints = 20000, kLeastPoints = 8;
 // Steps of the evenly spread sequence R2: powers of the inverse of the plastic number (Roberts 2018).
 constexpr double kStepA = 0.7548776662466927, kStepB = 0.5698402909980532;
@@ -63,7 +64,8 @@ private:
 
     [[nodiscard]] Touched touchedAt(Vec3d point, Vec3d normal, std::span<const std::uint32_t> own) const {
         Touched touched;
-        for (int step = 1; step <= 3; ++step) {
+        // A sheet of a slanted face is up to two voxels thick along the normal. The space behind it counts.
+        for (int step = 1; step <= (touched.isKnown ? kMostStepsThroughSheets : kMostSteps); ++step) {
             const Vec3d place = volume_.grid.indexFromWorld(point + normal * (step_ * step));
             const Vec3i at{static_cast<std::int32_t>(std::floor(place.x + 0.5)),
                            static_cast<std::int32_t>(std::floor(place.y + 0.5)),

@@ -4,6 +4,7 @@
 
 #include <svt/core/test_data_test.hpp>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -198,6 +199,68 @@ TEST_F(Quantities, MeasureContacts) {
         b += pair["areaOfB"].get<double>();
     }
     EXPECT_NEAR(a, b, 0.03 * a);
+}
+
+// Boxes of 2 m at one place or beside each other, as CityJSON. \param isOpen  surfaces without a bottom
+std::string manyBoxes(int count, bool isApart, bool isOpen) {
+    std::string objects, vertices;
+    for (int n = 0; n < count; ++n) {
+        const int x = isApart ? 3 * (n % 100) : 0, y = isApart ? 3 * (n / 100) : 0, v = 8 * n;
+        for (const int z : {0, 2})
+            for (const auto& [i, j] : {std::pair{0, 0}, {2, 0}, {2, 2}, {0, 2}})
+                vertices += (vertices.empty() ? "[" : ",[") + std::to_string(x + i) + "," + std::to_string(y + j) +
+                            "," + std::to_string(z) + "]";
+        std::string faces;
+        for (const auto& face :
+             {std::array{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}) {
+            if (isOpen && face[1] != 1) continue;  // one wall
+            faces += faces.empty() ? "[[" : ",[[";
+            for (const int corner : face) faces += (faces.back() == '[' ? "" : ",") + std::to_string(v + corner);
+            faces += "]]";
+        }
+        objects += (n == 0 ? "\"b" : ",\"b") + std::to_string(n) + R"(":{"type":"Building","geometry":[{"type":")" +
+                   (isOpen ? "MultiSurface" : "Solid") + R"(","lod":"2","boundaries":[)" +
+                   (isOpen ? faces : "[" + faces + "]") + "]}]}";
+    }
+    return R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},"CityObjects":{)" +
+           objects + "},\"vertices\":[" + vertices + "]}";
+}
+
+// Thousands of equal objects, at one place or apart, take no quadratic time: this test would not end in its limit.
+TEST_F(Quantities, OfManyEqualObjects) {
+    for (const bool isApart : {false, true}) {
+        writeText(folder / "many.city.json", manyBoxes(10000, isApart, false));
+        const json report = runSvtForJson(folder.path(), {"quantities", "many.city.json", "--spacing", "0.5", "--json",
+                                                          "-q", "--exterior", "--formwork", "class=Building"});
+        EXPECT_EQ(report["rows"].size(), 10000u);
+        EXPECT_NEAR(report["total"]["netVolume"].get<double>(), isApart ? 80000 : 8, 0.01);
+    }
+}
+
+TEST_F(Quantities, OfBadFilesAreAMessage) {
+    writeText(folder / "empty.gml", "");
+    writeText(folder / "cut.ifc", "ISO-10303-21;");
+    for (const char* file : {"empty.gml", "cut.ifc", "missing.ifc"}) {
+        const CommandResult result = runSvt(folder.path(), {"quantities", file, "--json"});
+        EXPECT_NE(result.exitCode, 0) << file;
+        EXPECT_TRUE(result.out.empty()) << file;
+        EXPECT_NE(result.err.find("svt: error E"), std::string::npos) << result.toString();
+    }
+}
+
+// Surfaces have areas, but no volume: null, never 0.
+TEST_F(Quantities, OfSurfacesHaveNoVolume) {
+    writeText(folder / "open.city.json", manyBoxes(2, true, true));
+    const CommandResult result = runSvt(folder.path(), {"quantities", "open.city.json", "--spacing", "0.5", "--json"});
+    ASSERT_EQ(result.exitCode, 0) << result.toString();
+    const json report = json::parse(result.out);
+    ASSERT_EQ(report["rows"].size(), 2u);
+    for (const json& row : report["rows"]) {
+        EXPECT_TRUE(row["netVolume"].is_null() && row["trust"].is_null() && row["bound"].is_null()) << row;
+        EXPECT_NEAR(row["sideArea"].get<double>(), 4, 0.01) << row;
+    }
+    EXPECT_TRUE(report["total"]["netVolume"].is_null());
+    EXPECT_NE(result.err.find("net volume of 2 of 2 objects is unknown"), std::string::npos) << result.toString();
 }
 
 }  // namespace
