@@ -29,7 +29,16 @@ COMMANDS = [
         "shell",
         "convert",
     ),
-    *("fields", "field-list", "field-add", "field-stats", "field-probe", "field-export", "field-remove", "simulate-heat"),
+    *(
+        "fields",
+        "field-list",
+        "field-add",
+        "field-stats",
+        "field-probe",
+        "field-export",
+        "field-remove",
+        "simulate-heat",
+    ),
     *("serve", "view", "city-plan", "city-run", "city-task", "city-status", "city-merge", "city-info", "city-extract"),
     *("thumbnail", "doctor", "describe"),
 ]

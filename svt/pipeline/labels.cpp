@@ -131,6 +131,25 @@ void clearWindowSurfaces(const volume::LabelTable& table, const std::vector<std:
             opacities[l] = std::min(clear, kMostOpaque);
 }
 
+// The claims of the objects, the colours of phases where the table has room for them, and the patterns.
+void addClaims(const mesh::MeshSet& meshes, const std::vector<std::uint32_t>& objectOf,
+               const std::vector<ResolvedStyle>& styles, LabelledObjects& result) {
+    volume::LabelTable& table = result.table;
+    result.claims.resize(meshes.objects.size());
+    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
+        const std::uint32_t l = result.labelOfObject[o];
+        const volume::Label& label = table.labels[l];
+        result.claims[o] = {label.first, static_cast<std::uint8_t>(rankOf(label)), label.id,
+                            bodyOf(table, objectOf, meshes, l)};
+        if (!table.phaseColors.empty())
+            for (volume::Scalar s = 0; s < label.count; ++s)
+                table.phaseColors[label.first + s] =
+                    s < styles[l].phaseColors.size() ? styles[l].phaseColors[s] : label.color;
+        if (label.count > 1)
+            result.patterns.push_back({label.first, styles[l].pattern, voxelize::dominantAxes(meshes.objects[o])});
+    }
+}
+
 }  // namespace
 
 void addCapFeatures(model::BuildingModel& model, const mesh::MeshSet& meshes) {
@@ -200,19 +219,7 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
                                                       "patterns with fewer phases",
                                                       next, volume::kMaxScalarCount));
     if (hasPattern) table.phaseColors.resize(next);
-    result.claims.resize(meshes.objects.size());
-    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
-        const std::uint32_t l = result.labelOfObject[o];
-        const volume::Label& label = table.labels[l];
-        result.claims[o] = {label.first, static_cast<std::uint8_t>(rankOf(label)), label.id,
-                            bodyOf(table, objectOf, meshes, l)};
-        if (hasPattern)
-            for (volume::Scalar s = 0; s < label.count; ++s)
-                table.phaseColors[label.first + s] =
-                    s < styles[l].phaseColors.size() ? styles[l].phaseColors[s] : label.color;
-        if (label.count > 1)
-            result.patterns.push_back({label.first, styles[l].pattern, voxelize::dominantAxes(meshes.objects[o])});
-    }
+    addClaims(meshes, objectOf, styles, result);
     return result;
 }
 

@@ -189,10 +189,11 @@ private:
         const SquareGrid grid(box, std::min(2.0 * double(pairs_.size()), double(1 << 22)), 65536, 8.0 * reach_);
         SquareLists pairsIn, nodesIn;
         for (std::uint32_t n = 0; n < pairs_.size(); ++n)
-            grid.forSegment(pointOf(pairs_[n].from), pointOf(pairs_[n].to), reach_, [&](std::size_t square) {
-                pairsIn.add(square, n);
-                return true;
-            });
+            static_cast<void>(
+                grid.forSegment(pointOf(pairs_[n].from), pointOf(pairs_[n].to), reach_, [&](std::size_t square) {
+                    pairsIn.add(square, n);
+                    return true;
+                }));
         const auto nodeCount = static_cast<std::uint32_t>(nodes_.points().size());
         for (std::uint32_t n = 0; n < nodeCount; ++n) nodesIn.add(grid.squareOf(pointOf(n)), n);
         pairsIn.finish(grid.count());

@@ -93,7 +93,7 @@ private:
     }
 
     template <class IsNodeNear, class IsNear, class Take>
-    bool walk(const IsNodeNear& isNodeNear, const IsNear& isNear, const Take& take) const {
+    [[nodiscard]] bool walk(const IsNodeNear& isNodeNear, const IsNear& isNear, const Take& take) const {
         std::uint32_t stack[64];  // the tree is at most 32 nodes deep
         std::uint32_t depth = 0;
         if (!nodes_.empty()) stack[depth++] = 0;

@@ -32,7 +32,7 @@ public:
     /// Visits each square within `reach` of the segment a-b, and some squares further away; each once.
     /// \param reach  at least 1, which exceeds the rounding error
     template <class Body>
-    bool forSegment(Point a, Point b, double reach, const Body& body) const {
+    [[nodiscard]] bool forSegment(Point a, Point b, double reach, const Body& body) const {
         const auto [left, right] = std::minmax(a, b);
         const double leftU = double(left.u), leftV = double(left.v), rightU = double(right.u), rightV = double(right.v);
         const std::int64_t first = columnOf(leftU - reach), last = columnOf(rightU + reach);
@@ -54,7 +54,7 @@ public:
 
     /// Visits each square that meets the box.
     template <class Body>
-    bool forBox(const Box& box, const Body& body) const {
+    [[nodiscard]] bool forBox(const Box& box, const Body& body) const {
         for (std::int64_t row = rowOf(double(box.low.v)), top = rowOf(double(box.high.v)); row <= top; ++row)
             for (std::int64_t column = columnOf(double(box.low.u)); column <= columnOf(double(box.high.u)); ++column)
                 if (!body(at(column, row))) return false;
@@ -69,7 +69,7 @@ public:
     /// Visits each square that lies `ring` squares away from the square of `p`. Ignores the result of body(square).
     /// \return false if all squares are nearer to `p`
     template <class Body>
-    bool forRing(Point p, std::int64_t ring, const Body& body) const {
+    [[nodiscard]] bool forRing(Point p, std::int64_t ring, const Body& body) const {
         const std::int64_t u = columnOf(double(p.u)), v = rowOf(double(p.v));
         if (u - ring < 0 && v - ring < 0 && u + ring >= columns_ && v + ring >= rows_) return false;
         for (std::int64_t row = std::max<std::int64_t>(v - ring, 0); row <= std::min(v + ring, rows_ - 1); ++row) {

@@ -84,7 +84,23 @@ struct MeshTracer::State {
     void findSurfaces(const volume::LabelTable& table);
     [[nodiscard]] std::vector<Crossing> crossings(Vec3d origin, Vec3d direction) const;
     [[nodiscard]] std::vector<volume::Scalar> scalarsOf(std::uint32_t owner, Vec3d point, bool isOutside) const;
+    /// Surfaces without inside own the side behind their face: those of higher priority than the object there.
+    [[nodiscard]] std::vector<const Crossing*> sheetsAmong(std::span<const Crossing> crossings,
+                                                           std::optional<std::uint32_t> topBefore,
+                                                           std::optional<std::uint32_t> topAfter) const;
 };
+
+std::vector<const Crossing*> MeshTracer::State::sheetsAmong(std::span<const Crossing> crossings,
+                                                            std::optional<std::uint32_t> topBefore,
+                                                            std::optional<std::uint32_t> topAfter) const {
+    std::vector<const Crossing*> sheets;
+    for (const Crossing& crossing : crossings) {
+        if (meshes.objects[crossing.object].isSolid() || !isDrawn(crossing.object)) continue;
+        const auto behind = crossing.isEntry ? topAfter : topBefore;
+        if (!behind || key(crossing.object) < key(*behind)) sheets.push_back(&crossing);
+    }
+    return sheets;
+}
 
 void MeshTracer::State::findSurfaces(const volume::LabelTable& table) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> of;
@@ -253,13 +269,7 @@ SeenSurface MeshTracer::trace(const render::ViewRay& ray, const std::optional<re
         const std::span<const Crossing> here = std::span(all).subspan(first, end - first);
         first = end;
         if (isFound || depth <= part.from || depth >= part.to) continue;
-        // Surfaces without inside own the side behind their face.
-        std::vector<const Crossing*> sheets;
-        for (const Crossing& crossing : here) {
-            if (state.meshes.objects[crossing.object].isSolid() || !state.isDrawn(crossing.object)) continue;
-            const auto behind = crossing.isEntry ? topAfter : topBefore;
-            if (!behind || state.key(crossing.object) < state.key(*behind)) sheets.push_back(&crossing);
-        }
+        const std::vector<const Crossing*> sheets = state.sheetsAmong(here, topBefore, topAfter);
         if (!sheets.empty()) {
             std::vector<volume::Scalar> scalars;
             for (const Crossing* sheet : sheets) scalars.push_back(state.labelled.claims[sheet->object].scalar);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Volumes, drawings and pictures of models are equal to the last bit on every machine: tests/golden/manifest.json has their digests.
+"""Volumes, drawings and pictures are equal to the last bit on every machine: tests/golden/manifest.json has digests.
 
     tests/scripts/manifest_test.py SVT
 

@@ -28,7 +28,7 @@ class BatchReader {
 public:
     BatchReader(FeatureFile file, readers::ReadOptions options,
                 const std::function<Result<void>(model::BuildingModel&, Diagnostics&)>& take)
-        : file_(std::move(file)), options_(options), progress_(options_.progress), take_(take) {
+        : file_(std::move(file)), options_(std::move(options)), progress_(options_.progress), take_(take) {
         options_.progress = nullptr;  // it would restart with each batch
         options_.keepFarFeatures = true;
     }
@@ -117,7 +117,7 @@ bool isWorthBatches(const std::filesystem::path& file) {
     return !failed && size >= (file.extension() == ".gz" ? kLargeGzip : kLargeFile);
 }
 
-Result<bool> forEachBatch(const std::filesystem::path& file, readers::ReadOptions options,
+Result<bool> forEachBatch(const std::filesystem::path& file, const readers::ReadOptions& options,
                           const std::function<Result<void>(model::BuildingModel&, Diagnostics&)>& take) {
     auto opened = FeatureFile::open(file, options);
     if (!opened) return false;

@@ -24,7 +24,7 @@ namespace svt::cli {
 /// \return true; or the first error; or false if the whole file must be read at once. Then the results of `take` are
 ///         useless. Reasons: features refer to each other, the format has no batches, or a batch cannot be read.
 /// Cost: that of reading the file. Memory: that of a batch, and 16 bytes per feature.
-[[nodiscard]] Result<bool> forEachBatch(const std::filesystem::path& file, readers::ReadOptions options,
+[[nodiscard]] Result<bool> forEachBatch(const std::filesystem::path& file, const readers::ReadOptions& options,
                                         const std::function<Result<void>(model::BuildingModel&, Diagnostics&)>& take);
 
 }  // namespace svt::cli

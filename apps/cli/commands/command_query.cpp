@@ -173,6 +173,7 @@ Result<int> runQuery(const QueryArguments& arguments) {
     return printReport(*volume, *selected, arguments);
 }
 
+// NOLINTNEXTLINE(readability-function-size): a list
 Members<QueryArguments> membersOf(const QueryArguments*) noexcept {
     using All = QueryArguments;
     static constexpr Member<All> kMembers[] = {

@@ -400,37 +400,40 @@ Table gapTable(const volume::SemanticVolume& volume, const Labels& selected) {
     return table;
 }
 
+std::vector<Column> areaColumns() {
+    return {{"kind", "kind"},
+            {"id", "id"},
+            {"number", "number"},
+            {"name", "name"},
+            {"storey", "storey"},
+            {"level", "level m", 2},
+            {"floor", "", 2},
+            {"floorBound", "+- m", 2},
+            {"elevation", "elevation m", 2},
+            {"use", "use"},
+            {"area", "m2", 2},
+            {"height", "height m", 2},
+            {"volume", "m3", 2},
+            {"nuf", "NUF", 2},
+            {"tf", "TF", 2},
+            {"vf", "VF", 2},
+            {"unknownUse", "?", 2},
+            {"nrf", "NRF", 2},
+            {"kgf", "KGF", 2},
+            {"bgf", "BGF", 2},
+            {"exact", "exact"},
+            {"statedArea", "stated m2", 2},
+            {"areaDifference", "difference m2", 2},
+            {"countedArea", "", 2}};
+}
+
 Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& selected, int threads,
                         Diagnostics& findings) {
     const auto levels = drawing::findLevels(volume);
     SVT_TRY(areas, drawing::measureFloorAreas(volume, levels, threads));
     drawing::reportStoreys(volume, findings);
     drawing::reportAreas(*areas, levels, volume, findings);
-    Table table{{{"kind", "kind"},
-                 {"id", "id"},
-                 {"number", "number"},
-                 {"name", "name"},
-                 {"storey", "storey"},
-                 {"level", "level m", 2},
-                 {"floor", "", 2},
-                 {"floorBound", "+- m", 2},
-                 {"elevation", "elevation m", 2},
-                 {"use", "use"},
-                 {"area", "m2", 2},
-                 {"height", "height m", 2},
-                 {"volume", "m3", 2},
-                 {"nuf", "NUF", 2},
-                 {"tf", "TF", 2},
-                 {"vf", "VF", 2},
-                 {"unknownUse", "?", 2},
-                 {"nrf", "NRF", 2},
-                 {"kgf", "KGF", 2},
-                 {"bgf", "BGF", 2},
-                 {"exact", "exact"},
-                 {"statedArea", "stated m2", 2},
-                 {"areaDifference", "difference m2", 2},
-                 {"countedArea", "", 2}},
-                {}};
+    Table table{areaColumns(), {}};
     const double datum = dot(volume.grid.origin(), volume.grid.axes()[2]), zero = drawing::zeroLevel(levels);
     for (const drawing::RoomArea& room : areas->rooms) {
         if (!isIn(selected, room.label)) continue;

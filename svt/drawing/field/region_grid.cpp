@@ -161,7 +161,7 @@ double RegionGrid::continuedValue(std::ptrdiff_t i, std::ptrdiff_t j) const noex
         if (x < 0 || y < 0 || x >= width || y >= height) return kNone;
         return values_[static_cast<std::size_t>(x + y * width)];
     };
-    // Distance to the next node by that between the next two.
+    // Distance to the next node, divided by the distance between the next two.
     const auto gap = [](const std::vector<double>& lines, std::ptrdiff_t k, int sign) {
         const auto coordinate = [&](std::ptrdiff_t m) { return lines[static_cast<std::size_t>(m)]; };
         return (coordinate(k + sign) - coordinate(k)) / (coordinate(k + 2 * sign) - coordinate(k + sign));

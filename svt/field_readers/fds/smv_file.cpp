@@ -68,7 +68,9 @@ private:
         return {};
     }
 
-    Error bad(std::string message, std::size_t line) const { return badField(std::move(message), path_, line + 1); }
+    [[nodiscard]] Error bad(std::string message, std::size_t line) const {
+        return badField(std::move(message), path_, line + 1);
+    }
 
     // The next line; nothing at the end of the file: a run that goes on may still write more.
     std::optional<std::string_view> next() {

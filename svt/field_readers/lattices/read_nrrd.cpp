@@ -87,7 +87,7 @@ public:
     }
 
 private:
-    Error bad(std::string message) const { return badField(std::move(message), reading_.path); }
+    [[nodiscard]] Error bad(std::string message) const { return badField(std::move(message), reading_.path); }
 
     Result<void> readType() {
         const std::string_view name = lineOf(lines_, "type");

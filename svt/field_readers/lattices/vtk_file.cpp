@@ -121,7 +121,7 @@ class VtkOpener {
 public:
     VtkOpener(const std::filesystem::path& path, std::string_view text) : path_(path), text_(text) {}
 
-    Error bad(std::string message) const { return badField(std::move(message), path_); }
+    [[nodiscard]] Error bad(std::string message) const { return badField(std::move(message), path_); }
 
     // Splits the XML from the appended samples, and parses it.
     Result<void> split(pugi::xml_document& document, std::string_view& appended, bool& isRaw) const {

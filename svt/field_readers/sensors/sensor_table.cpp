@@ -58,7 +58,9 @@ public:
     }
 
 private:
-    Error bad(std::string message) const { return badField(std::move(message), reading_.path, csv_.line()); }
+    [[nodiscard]] Error bad(std::string message) const {
+        return badField(std::move(message), reading_.path, csv_.line());
+    }
 
     Result<void> readHeader() {
         std::optional<std::size_t> time, sensor, value;

@@ -85,6 +85,7 @@ struct WorkMemory : PlainCodec<WorkMemory, std::uint64_t> {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): a list
 record::Members<BuildOptions> membersOf(const BuildOptions*) noexcept {
     static constexpr record::Member<BuildOptions> kMembers[] = {
         memberAs<SampleCounts, &BuildOptions::dimension>("dimension",

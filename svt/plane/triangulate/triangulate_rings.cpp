@@ -98,10 +98,10 @@ private:
     void addToBorder(std::size_t link, std::size_t next) {
         linksIn_[grid_.squareOf(at(link))].push_back(link);
         if (!hasHoles_) return;
-        grid_.forSegment(at(link), at(next), 1, [&](std::size_t square) {
+        static_cast<void>(grid_.forSegment(at(link), at(next), 1, [&](std::size_t square) {
             linesIn_[square].push_back(lines_.size());
             return true;
-        });
+        }));
         lines_.push_back({at(link), at(next)});
     }
 

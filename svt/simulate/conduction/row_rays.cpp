@@ -66,8 +66,9 @@ RowRays::RowRays(const volume::SemanticVolume& volume, const volume::BrickVolume
             for (std::size_t r = b * kRowsOfBlock; r < std::min((b + 1) * kRowsOfBlock, rows); ++r) {
                 block.start.push_back(static_cast<std::uint32_t>(block.parts.size()));
                 Vec3d from{};
+                const std::size_t row = r / across;
                 from[firstAcross(axis)] = double(r % across) + 0.5;
-                from[secondAcross(axis)] = double(r / across) + 0.5;
+                from[secondAcross(axis)] = double(row) + 0.5;
                 PartCollector collector(volume.grid, bricks, axis, block.parts);
                 faces.walk(bricks, render::VoxelRay(from, along), volume.grid.spacing()[axis], 0, size_[axis],
                            collector);

@@ -97,7 +97,7 @@ public:
 
     bool isCut = false;
     /// The error of the last failed read, or else `otherwise`.
-    [[nodiscard]] Error fault(Error otherwise) const { return fault_ ? *fault_ : otherwise; }
+    [[nodiscard]] Error fault(const Error& otherwise) const { return fault_ ? *fault_ : otherwise; }
 
 private:
     static constexpr std::size_t kPiece = 4096;  // numbers are in tables, which may lie far apart
