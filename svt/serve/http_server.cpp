@@ -181,8 +181,8 @@ std::string dateNow() {
 // \param origins  other servers that the page may ask, each with a blank before it
 std::string safetyHeaders(const std::string& origins) {
     return "Content-Security-Policy: default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; "
-           "style-src 'self'; img-src 'self' data: blob:; font-src 'self'; connect-src 'self'" +
-           origins +
+           "style-src 'self'; img-src 'self' data: blob:" +
+           origins + "; font-src 'self'; connect-src 'self'" + origins +
            "; base-uri 'none'; "
            "form-action 'none'; frame-ancestors 'none'\r\n"
            "Cross-Origin-Opener-Policy: same-origin\r\n"

@@ -46,6 +46,17 @@ TEST(HttpServer, AnswersWithTheHeadersOfSafety) {
     EXPECT_EQ(server.ask("GET /missing").header("X-Content-Type-Options"), "nosniff");
 }
 
+TEST(HttpServer, LetsThePageFetchFromAllowedSites) {
+    Site site = smallSite();
+    site.allowOrigin(originOf("https://tile.example.org/{z}/{x}/{y}.png"));
+    const RunningServer server(std::move(site));
+    const std::string policy = server.ask("GET /").header("Content-Security-Policy");
+    EXPECT_NE(policy.find("img-src 'self' data: blob: https://tile.example.org;"), std::string::npos) << policy;
+    EXPECT_NE(policy.find("connect-src 'self' https://tile.example.org;"), std::string::npos) << policy;
+    for (const char* address : {"", "tile.example.org", "https://", "https://a'b.org", "https://a.org;script-src *"})
+        EXPECT_EQ(originOf(address), "") << address;
+}
+
 TEST(HttpServer, MethodsAndPaths) {
     const RunningServer server(smallSite(), {echo()});
     EXPECT_EQ(server.ask("GET /missing").status, 404);

@@ -50,8 +50,8 @@ constexpr std::size_t kFilePiece = std::size_t{1} << 20;
 // this one.
 std::string pagePolicy(const std::string& origins) {
     return "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; style-src 'self'; "
-           "img-src 'self' data: blob:; font-src 'self'; connect-src 'self'" +
-           origins + "; base-uri 'none'; form-action 'none'";
+           "img-src 'self' data: blob:" +
+           origins + "; font-src 'self'; connect-src 'self'" + origins + "; base-uri 'none'; form-action 'none'";
 }
 
 std::string_view textOf(const Bytes& bytes) {
@@ -248,18 +248,6 @@ Result<void> moveInto(const fs::path& staging, const fs::path& folder, const std
     return {};
 }
 
-// "https://example.org:8080" of "https://example.org:8080/town"; empty for a folder, and for an address that a policy
-// cannot contain.
-std::string originOf(const std::string& location) {
-    if (!location.starts_with("http://") && !location.starts_with("https://")) return {};
-    const std::string origin = location.substr(0, location.find_first_of("/?#", location.find("//") + 2));
-    const auto isPlain = [](unsigned char c) {
-        return isLetter(char(c)) || isDigit(char(c)) ||
-               std::string_view(":/.-[]").find(char(c)) != std::string_view::npos;
-    };
-    return std::all_of(origin.begin(), origin.end(), isPlain) ? origin : std::string();
-}
-
 Result<nlohmann::ordered_json> addCity(Site& site, const SiteModel& model) {
     std::string file = model.city;
     if (const std::string origin = originOf(model.city); !origin.empty()) {
@@ -286,6 +274,16 @@ Result<Resource> resourceOf(const std::string& path, Bytes bytes) {
 }
 
 }  // namespace
+
+std::string originOf(const std::string& location) {
+    if (!location.starts_with("http://") && !location.starts_with("https://")) return {};
+    const std::string origin = location.substr(0, location.find_first_of("/?#", location.find("//") + 2));
+    const auto isPlain = [](unsigned char c) {
+        return isLetter(char(c)) || isDigit(char(c)) ||
+               std::string_view(":/.-[]").find(char(c)) != std::string_view::npos;
+    };
+    return !origin.ends_with("/") && std::all_of(origin.begin(), origin.end(), isPlain) ? origin : std::string();
+}
 
 void Site::add(const std::string& path, Bytes bytes) {
     resources_.insert_or_assign(path, *resourceOf(path, std::move(bytes)));

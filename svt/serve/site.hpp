@@ -55,7 +55,7 @@ public:
 
     [[nodiscard]] const std::map<std::string, Resource, std::less<>>& resources() const noexcept { return resources_; }
 
-    /// Lets the page fetch from another server: "https://example.org".
+    /// Lets the page fetch data and pictures from another server: "https://example.org".
     void allowOrigin(const std::string& origin);
     /// All allowed origins, each with a blank before it.
     [[nodiscard]] const std::string& origins() const noexcept { return origins_; }
@@ -64,6 +64,10 @@ private:
     std::string origins_;
     std::map<std::string, Resource, std::less<>> resources_;
 };
+
+/// "https://example.org:8080" of "https://example.org:8080/town"; empty for a folder, and for an address that a policy
+/// cannot contain.
+[[nodiscard]] std::string originOf(const std::string& location);
 
 /// A volume or a city that users of the page can open.
 struct SiteModel {

@@ -16,6 +16,10 @@ Members<ServeArguments> membersOf(const ServeArguments*) noexcept {
             {.value = "ADDRESS", .group = "Server"}),
         member<&All::hostNames>("--allow-host", "a further host name that browsers may use for this server",
                                 {.value = "NAME", .group = "Server"}),
+        member<&All::imageSites>("--allow-images",
+                                 "a site from which the page may fetch pictures of the ground, such as "
+                                 "https://tile.example.org",
+                                 {.value = "ADDRESS", .group = "Server"}),
         member<&All::allowUploads>("--allow-uploads", "convert models that the page sends", {.group = "Uploads"}),
         member<&All::maxUploadMb>("--max-upload", "maximum size of an uploaded model",
                                   {.unit = "MB", .least = 1, .most = 1048576, .group = "Uploads"}),

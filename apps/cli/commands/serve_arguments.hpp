@@ -19,6 +19,7 @@ struct ServeArguments {
     std::string host = "127.0.0.1";
     std::optional<int> port;  ///< unset: wantedPort(), or the next free one
     std::vector<std::string> hostNames;
+    std::vector<std::string> imageSites;
     bool allowUploads = false;
     std::uint64_t maxUploadMb = 200, convertMemoryMb = 2048;
     double convertSeconds = 120;

@@ -76,6 +76,18 @@ void announce(const ServeArguments& arguments, const serve::ServerOptions& optio
     note("Ctrl-C stops");
 }
 
+Result<void> allowImages(const std::vector<std::string>& addresses, serve::Site& site) {
+    for (const std::string& address : addresses) {
+        const std::string origin = serve::originOf(address);
+        if (origin.empty())
+            return Error(Code::BadArgument, fmt::format("--allow-images {}: expected the address of a site, such as "
+                                                        "https://tile.example.org",
+                                                        address));
+        site.allowOrigin(origin);
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<int> runServe(const ServeArguments& arguments) {
@@ -84,6 +96,7 @@ Result<int> runServe(const ServeArguments& arguments) {
     SVT_TRY(viewer, arguments.site.viewerFolder());
     SVT_TRY(models, arguments.site.load(arguments.inputs));
     SVT_TRY(site, serve::viewerSite(*viewer, *models));
+    SVT_DO(allowImages(arguments.imageSites, *site));
     site->add("/api", serve::Bytes::of(abilities(arguments)));
 
     const PrivateFolder folder;
