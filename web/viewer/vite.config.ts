@@ -2,6 +2,8 @@ import { statSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
 import { billOfMaterialsPlugin } from "./sbom_plugin";
+import { basemapTemplate } from "./src/basemap/texts";
+import { compareTemplate } from "./src/comparing/texts";
 import { template } from "./src/texts";
 import { lateTemplate } from "./src/late_texts";
 import { toolTemplate } from "./src/tool_texts";
@@ -37,7 +39,7 @@ export default defineConfig({
         this.emitFile({
           type: "asset",
           fileName: "languages/template.json",
-          source: `${JSON.stringify({ texts: { ...template(), ...toolTemplate(), ...lateTemplate() }, classes: {} }, null, 1)}\n`,
+          source: `${JSON.stringify({ texts: { ...template(), ...toolTemplate(), ...lateTemplate(), ...compareTemplate(), ...basemapTemplate() }, classes: {} }, null, 1)}\n`,
         });
       },
     },

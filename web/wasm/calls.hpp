@@ -5,6 +5,7 @@
 #include "font.hpp"
 #include "session.hpp"
 
+#include <svt/core/progress.hpp>
 #include <svt/illustrate/scene.hpp>
 
 #include <nlohmann/json.hpp>
@@ -80,6 +81,12 @@ private:
 
 /// The open volume, for calls that need one.
 [[nodiscard]] Session& openSession() noexcept;
+
+/// Runs a call by its name; each module has its own calls.
+[[nodiscard]] Result<Reply> runCall(std::string_view name, const Arguments& arguments);
+
+/// Progress that the page receives.
+[[nodiscard]] Progress progressOfPage();
 
 struct Call {
     std::string_view name;

@@ -1,5 +1,4 @@
-// Interface for JavaScript: one function that takes the name of a call, its arguments as a JSON array, and bytes. It
-// stores a reply, JSON or bytes, that must be read before the next call. See calls() for the calls.
+// The calls on an open volume or city, see kCalls.
 #include "calls.hpp"
 #include "city.hpp"
 #include "font.hpp"
@@ -8,28 +7,22 @@
 #include "whole.hpp"
 
 #include <svt/core/parallel.hpp>
+#include <svt/crs/crs_name.hpp>
+#include <svt/crs/globe.hpp>
 #include <svt/illustrate/color_by.hpp>
 #include <svt/illustrate/view.hpp>
 
-#include <emscripten.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <new>
 #include <utility>
-
-// Reports progress to the page while a volume is opened.
-EM_JS(void, svt_progress, (const char* stage, int size, double done), {
-    if (Module["onProgress"]) Module["onProgress"](UTF8ToString(stage, size), done);
-});
 
 namespace svt::web {
 namespace {
 
 std::unique_ptr<Session> session;
 std::unique_ptr<CityPage> cityPage;
-Reply lastReply;
 
 // The context of a page's argument; Ghost by default.
 illustrate::Context contextOf(const Json& value) {
@@ -40,10 +33,7 @@ illustrate::Context contextOf(const Json& value) {
 // (name, or names) and, for several, (sizes in bytes); {draft, memory}; the concatenated bytes of the files ->
 // VolumeInfo
 Result<Reply> open(const Arguments& arguments) {
-    Progress progress;
-    progress.report = [](std::string_view stage, double done) {
-        svt_progress(stage.data(), static_cast<int>(stage.size()), done);
-    };
+    const Progress progress = progressOfPage();
     std::vector<NamedBytes> files;
     std::size_t at = 0;
     if (arguments.at(0).is_array()) {
@@ -110,20 +100,44 @@ Result<Reply> font(const Arguments& arguments) {
     return Reply(std::string("null"));
 }
 
-// (scene) -> the meaning of the colours of its colorBy: {title, isRamp, low, high, entries: [{text, count}], missing}
+// ([[east, north], ...] in the coordinates of the model) -> [[longitude, latitude], ...] in degrees
+Result<Reply> places(const Arguments& arguments) {
+    const auto epsg = static_cast<int>(crs::epsgCodeOf(session->volume().crsName));
+    Json list = Json::array();
+    for (const Json& at : arguments.at(0)) {
+        SVT_TRY(place, crs::placeOnEarth(epsg, {at.at(0).get<double>(), at.at(1).get<double>(), 0}));
+        list.push_back({place->x, place->y});
+    }
+    return Reply(list.dump());
+}
+
+// "#rrggbb"
+std::string cssColor(Vec3f color) {
+    const auto byte = [](float c) { return static_cast<int>(std::clamp(c, 0.0f, 1.0f) * 255 + 0.5f); };
+    return fmt::format("#{:06x}", byte(color.x) << 16 | byte(color.y) << 8 | byte(color.z));
+}
+
+// (scene) -> the meaning of the colours of its colorBy: {title, isRamp, low, high, ramp: [color],
+// entries: [{text, count, color}], missing, missingColor}; the colours of a ramp are at equal steps
 Result<Reply> legend(const Arguments& arguments) {
     SVT_TRY(scene, arguments.scene(0));
     illustrate::ColorScale scale;
     const analyze::LabelRows rows(session->volume());
     SVT_DO(illustrate::makeFrameSpec(*scene, session->volume(), rows, &scale));
-    Json entries = Json::array();
-    for (const auto& entry : scale.entries) entries.push_back({{"text", entry.text}, {"count", entry.count}});
+    Json entries = Json::array(), ramp = Json::array();
+    for (const auto& entry : scale.entries)
+        entries.push_back({{"text", entry.text}, {"count", entry.count}, {"color", cssColor(entry.color)}});
+    constexpr int kSteps = 16;
+    for (int n = 0; scale.isRamp && n <= kSteps; ++n)
+        ramp.push_back(cssColor(illustrate::rampColor(scale, scale.low + (scale.high - scale.low) * n / kSteps)));
     return Reply(Json{{"title", scale.title},
                       {"isRamp", scale.isRamp},
                       {"low", scale.low},
                       {"high", scale.high},
+                      {"ramp", std::move(ramp)},
                       {"entries", std::move(entries)},
-                      {"missing", scale.missing}}
+                      {"missing", scale.missing},
+                      {"missingColor", cssColor(illustrate::missingColor())}}
                      .dump());
 }
 
@@ -313,15 +327,18 @@ constexpr Call kCalls[] = {{"open", open, false},
                            {"stand", stand},
                            {"step", step},
                            {"legend", legend},
+                           {"places", places},
                            {"movedPlanes", movedPlanes},
                            {"cityGive", cityGive, false},
                            {"cityLook", cityLook, false},
                            {"cityDrop", cityDrop, false},
                            {"cityFind", cityFind, false}};
 
-Result<Reply> run(std::string_view name, std::string_view json, std::span<const std::byte> bytes) {
-    const Json values = Json::parse(json, nullptr, false);
-    if (!values.is_array()) return Error(Code::BadArgument, "the arguments of a call are a JSON array");
+}  // namespace
+
+Session& openSession() noexcept { return *session; }
+
+Result<Reply> runCall(std::string_view name, const Arguments& arguments) {
     for (const std::span<const Call> calls : {std::span<const Call>(kCalls), wholeCalls()}) {
         const auto found =
             std::find_if(calls.begin(), calls.end(), [&](const Call& call) { return call.name == name; });
@@ -330,41 +347,9 @@ Result<Reply> run(std::string_view name, std::string_view json, std::span<const 
         if (call.name.starts_with("city") && call.name != "cityLook" && !cityPage)
             return Error(Code::BadArgument, "no city is open; open one first");
         if (call.needsVolume && !session) return Error(Code::BadArgument, "no volume is open; open one first");
-        return call.run(Arguments(values, bytes));
+        return call.run(arguments);
     }
     return Error(Code::BadArgument, fmt::format("there is no call '{}'", name));
 }
 
-Result<Reply> runGuarded(std::string_view name, std::string_view json, std::span<const std::byte> bytes) {
-    try {
-        return run(name, json, bytes);
-    } catch (const std::bad_alloc&) {
-        return Error(Code::InputTooBig,
-                     "this needs more than the 2 GB of memory that a page has; build the volume with a coarser spacing "
-                     "with the command, or draw a smaller picture");
-    } catch (const std::exception& defect) {
-        return Error(Code::Internal, defect.what());
-    }
-}
-
-}  // namespace
-
-Session& openSession() noexcept { return *session; }
-
 }  // namespace svt::web
-
-extern "C" {
-
-/// Runs a call. \return 0: the reply is the result; 1: it is an EngineError
-EMSCRIPTEN_KEEPALIVE int svt_call(const char* name, const char* json, const void* bytes, std::size_t size) {
-    using namespace svt::web;
-    lastReply = {};
-    auto reply = runGuarded(name, json, std::span(static_cast<const std::byte*>(bytes), size));
-    lastReply = reply ? std::move(*reply) : Reply(errorOf(reply.error()));
-    return reply ? 0 : 1;
-}
-
-/// The reply to the last call; valid until the next.
-EMSCRIPTEN_KEEPALIVE const void* svt_reply() { return svt::web::lastReply.bytes.data(); }
-EMSCRIPTEN_KEEPALIVE std::size_t svt_reply_size() { return svt::web::lastReply.bytes.size(); }
-}

@@ -346,10 +346,4 @@ std::string attributesFoundIn(const Session& session, const std::string& words) 
     return textOf(list);
 }
 
-std::string errorOf(const Error& error) {
-    const std::string place = error.where().toString();
-    return textOf({{"code", codeTag(error.code())},
-                   {"message", place.empty() ? error.message() : place + ": " + error.message()}});
-}
-
 }  // namespace svt::web

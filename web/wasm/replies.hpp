@@ -29,7 +29,5 @@ namespace svt::web {
 /// string[]: ids of features with an attribute that contains all words in its name or value. Upper and lower case ASCII
 /// letters are equal.
 [[nodiscard]] std::string attributesFoundIn(const Session& session, const std::string& words);
-/// EngineError
-[[nodiscard]] std::string errorOf(const Error& error);
 
 }  // namespace svt::web

@@ -121,11 +121,15 @@ describe("search and colours", () => {
       rows.some((row) => /^IfcWall\w*: \d+$/.test(row)),
       `the legend as text: ${rows.join("; ")}`,
     );
+    const swatches = await legend.locator(".swatch").evaluateAll((all) => all.map((e) => getComputedStyle(e).backgroundColor));
+    assert.ok(new Set(swatches).size > 3 && swatches.every((color) => /^rgb\(/.test(color)), `colours: ${swatches}`);
+    // The picture on the screen has no second legend.
+    assert.equal(await inPage("s.view.describe(s.view.size, 1, true).scene.legend"), false);
     await inPage("s.view.set({ colorBy: 'volume' })");
     await visit.page
       .getByRole("list", { name: /^Legend: volume/ })
       .getByText(/^from [\d.,]+ to [\d.,]+$/)
-      .waitFor({ state: "attached" });
+      .waitFor();
     await inPage("s.view.set({ colorBy: '' })");
     await legend.waitFor({ state: "detached" });
   });

@@ -41,11 +41,25 @@ describe("modules", () => {
     await visit.page.goto(address);
     await visit.firstImage();
     await eventually(async () => assert.deepEqual(asked, ["svt_view", "svt"]));
+    await visit.page.waitForFunction(() => performance.getEntriesByName("svt-all-scripts").length > 0);
     await visit.page.waitForLoadState("networkidle");
     await visit.page.context().setOffline(true);
     await cut();
     const { bytes } = await exported();
     assert.ok(bytes.toString("utf8") === expected(), "as the command makes it");
+    // Scripts that load late have come, too.
+    await visit.page.keyboard.press("Control+k");
+    await visit.page.locator("svt-palette input:focus").waitFor();
+    await visit.page.keyboard.press("Escape");
+    await visit.page.click("#table");
+    await visit.page.locator("svt-table [role=row]").first().waitFor();
+    await visit.page.click("#table");
+    await tool("look");
+    await visit.page.selectOption("#color-by", "class");
+    await visit.page.locator("#color-scale li").first().waitFor();
+    await visit.page.click("#basemap");
+    await visit.page.locator("#basemap-show").waitFor();
+    assert.equal(await inPage("s.messages.message"), null);
   });
 
   it("keep the model, its owners and the picked place when the whole one takes over", async () => {

@@ -319,8 +319,20 @@ describe("fingers", () => {
       for (const name of kTools) {
         await visit.tool(name);
         if (name === "section") await visit.page.click("#add-plane");
+        if (name === "look") {
+          await visit.page.click("#basemap");
+          await visit.page.locator("#basemap-show").waitFor();
+          await visit.inPage("s.view.set({ colorBy: 'class' })");
+          // The legend is legible, and leaves more than half of the picture free.
+          const legend = await visit.page.locator("#color-scale li").first();
+          await legend.waitFor();
+          assert.ok((await legend.evaluate((e) => parseFloat(getComputedStyle(e).fontSize))) >= 12);
+          const [box, picture] = [await visit.page.locator("svt-color-legend").boundingBox(), await visit.stage()];
+          assert.ok(box.width < picture.width / 2 && box.x + box.width <= picture.x + picture.width, "beside the model");
+        }
         await visit.page.waitForTimeout(80);
         await check(name);
+        await visit.inPage("s.view.set({ colorBy: '' })");
         await visit.page.click(`#tool-${name}`);
       }
       await visit.page.getByRole("button", { name: "Show or hide: Parts" }).click();

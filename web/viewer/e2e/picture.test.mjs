@@ -193,6 +193,16 @@ describe("moving", () => {
     })()`);
     t.diagnostic(`while moving: ${Math.round(milliseconds)} ms a frame at ${Math.round(share * 100)} % of width and height`);
     assert.ok(share > 0.19 && share <= 1, `${share} of the width`);
+    // Levels of detail would take longer than voxels, so that the picture would have fewer pixels.
+    const levels = await inPage(`(async () => {
+      const { engine } = s.volume, drawn = [], { draw } = engine;
+      engine.draw = (scene, ...size) => (drawn.push(scene.passes.map(({ level }) => level ?? null)), draw.call(engine, scene, ...size));
+      s.view.turn({ ...s.view.state.camera });
+      while (s.picture.quality !== "fine") await new Promise(requestAnimationFrame);
+      engine.draw = draw;
+      return drawn;
+    })()`);
+    assert.deepEqual([levels[0], levels.at(-1)], [[0], [null]]);
     await settled();
     assert.deepEqual(await inPage("[s.picture.report.width, s.picture.report.height]"), await inPage("s.view.size"));
   });

@@ -1,5 +1,35 @@
-// Reads PNGs of 8-bit colour and of 16-bit gray, as `svt render` writes them.
-import { inflateSync } from "node:zlib";
+// Reads PNGs of 8-bit colour and of 16-bit gray, as `svt render` writes them, and writes PNGs of 8-bit colour.
+import { deflateSync, inflateSync } from "node:zlib";
+
+/** CRC-32 of ISO 3309. */
+function crc32(bytes) {
+  let sum = 0xffffffff;
+  for (const byte of bytes) {
+    sum ^= byte;
+    for (let bit = 0; bit < 8; ++bit) sum = (sum >>> 1) ^ (sum & 1 ? 0xedb88320 : 0);
+  }
+  return ~sum >>> 0;
+}
+
+/** A PNG of RGB. @param colorOf  (x, y) -> [r, g, b] */
+export function writePng(width, height, colorOf) {
+  const chunk = (name, body) => {
+    const bytes = Buffer.concat([Buffer.from(name, "latin1"), body]),
+      ends = Buffer.alloc(8);
+    ends.writeUInt32BE(body.length, 0);
+    ends.writeUInt32BE(crc32(bytes), 4);
+    return Buffer.concat([ends.subarray(0, 4), bytes, ends.subarray(4)]);
+  };
+  const head = Buffer.alloc(13);
+  head.writeUInt32BE(width, 0);
+  head.writeUInt32BE(height, 4);
+  head.set([8, 2], 8);
+  const rows = Array.from({ length: height }, (_, y) =>
+    Buffer.from([0, ...Array.from({ length: width }, (__, x) => colorOf(x, y)).flat()]),
+  );
+  const signature = Buffer.from([0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10]);
+  return Buffer.concat([signature, chunk("IHDR", head), chunk("IDAT", deflateSync(Buffer.concat(rows))), chunk("IEND", Buffer.alloc(0))]);
+}
 
 /** { width, height, channels, data }: samples row by row; numbers of 8 or 16 bits. */
 export function readPng(bytes) {

@@ -13,9 +13,9 @@ const { inPage, state, settled, firstImage, stage, eventually, drop } = visit;
 
 const axe = readFileSync(join(repository, "web/viewer/node_modules/axe-core/axe.min.js"), "utf8");
 
-/** Scripts that are fetched when they are first used. */
+/** Scripts that are fetched when they are first used, or after the first fine picture. */
 const kOnRequest =
-  /^(bcf|section_panes|object_table|command_palette|context_menu|help_dialog|aim_layer|details|late_texts|picture_keys|walk_pad|print_sheets)-/;
+  /^(basemap_choice|bcf|color_legend|late|section_panes|object_table|command_palette|context_menu|help_dialog|aim_layer|details|late_texts|picture_keys|walk_pad|print_sheets|changes_panel|compare_worker|svt_compare|engine_server)-/;
 
 describe("start", () => {
   it("keeps the budget of bytes", (t) => {
@@ -34,6 +34,14 @@ describe("start", () => {
     assert.ok(own <= 300_000, `own scripts and styles: ${own} bytes compressed, at most 300000`);
     assert.ok(first <= 1_200_000, `the start of a visit: ${first} bytes compressed, at most 1200000`);
     assert.ok(Math.max(...wholes) <= 1_750_000, `the whole module: ${wholes} bytes compressed, at most 1750000`);
+  });
+
+  it("keeps the budget of bytes of a comparison, which no visit begins with", (t) => {
+    const files = readdirSync(join(pageFolder, "assets")).filter((name) => /^(changes_panel|compare_worker|svt_compare)-/.test(name));
+    assert.equal(files.length, 3, files.join());
+    const bytes = files.reduce((sum, name) => sum + gzipSync(readFileSync(join(pageFolder, "assets", name)), { level: 9 }).length, 0);
+    t.diagnostic(`${bytes} bytes, compressed`);
+    assert.ok(bytes <= 1_100_000, `a comparison: ${bytes} bytes compressed, at most 1100000`);
   });
 
   it("says what of others it holds, with versions", () => {

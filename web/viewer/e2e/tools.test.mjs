@@ -4,7 +4,9 @@ import { execFileSync } from "node:child_process";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { before, describe, it } from "node:test";
 import { join } from "node:path";
+import { deflateSync } from "node:zlib";
 import { repository, svt } from "./harness.mjs";
+import { readPng, writePng } from "./png.mjs";
 import { withHouse } from "./visit.mjs";
 
 const { at, visit, open } = withHouse("tools");
@@ -410,5 +412,235 @@ describe("four views", () => {
     const [plan, dock] = [await paneBox("side"), await page().locator("svt-app .dock").boundingBox()];
     assert.ok(plan.y + plan.height <= dock.y + 1, "above the tools");
     assert.ok(await page().evaluate(() => document.documentElement.scrollWidth <= innerWidth), "nothing to scroll");
+  });
+});
+
+describe("a basemap", () => {
+  const kRed = [210, 60, 50],
+    kGreen = [60, 170, 80],
+    kBlue = [50, 90, 200],
+    kYellow = [230, 200, 60];
+  /** Quarters: north-west red, north-east green, south-west blue, south-east yellow. */
+  const quarters = (x, y) => (y < 32 ? (x < 32 ? kRed : kGreen) : x < 32 ? kBlue : kYellow);
+  /** 40 m around the middle of the house at 5.5, 6: 64 pixels of 0.625 m; the first one's centre. */
+  const [west, north] = [500000 + 5.5 - 20, 5400000 + 6 + 20];
+  const worldFile = [0.625, 0, 0, -0.625, west + 0.3125, north - 0.3125].join("\n");
+  /** @type {[number, number, number[]][]} */
+  const around = [
+    [-9, 21, kRed],
+    [20, 21, kGreen],
+    [-9, -9, kBlue],
+    [20, -9, kYellow],
+  ];
+
+  before(() => open());
+
+  const show = async () => {
+    await tool("look");
+    if (!(await visit.page.locator("svt-basemap").count())) await visit.page.click("#basemap");
+    await visit.page.locator("#basemap-show").waitFor();
+  };
+  const choose = (...files) =>
+    visit.page
+      .locator("#basemap-file")
+      .setInputFiles(files.map(({ name, bytes }) => ({ name, mimeType: "application/octet-stream", buffer: Buffer.from(bytes) })));
+  /** A view with room around the house. */
+  const stepBack = () =>
+    inPage(
+      "(async () => { await s.view.goTo('', 'iso'); const { camera } = s.view.state; s.view.turn({ ...camera, eye: camera.target.map((t, i) => t + 3 * (camera.eye[i] - t)) }); })()",
+    );
+  const laid = () => eventually(async () => assert.ok(await inPage("s.view.ground !== null && s.picture.quality === 'fine'")));
+  /** Where a point of the model's coordinates, on the ground, is in the picture: 0..1. */
+  const seen = async (east, north) =>
+    inPage(
+      `(() => {
+        const { camera } = s.view.state, { origin } = s.volume.info, sub = (a, b) => a.map((x, i) => x - b[i]), dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
+        const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]], unit = (a) => a.map((x) => x / Math.hypot(...a));
+        const forward = unit(sub(camera.target, camera.eye)), right = unit(cross(forward, [0, 0, 1])), up = cross(right, forward);
+        const d = sub([v[0] - origin[0], v[1] - origin[1], s.view.ground.height - origin[2]], camera.eye), half = Math.tan((camera.fieldOfView * Math.PI) / 360) * dot(d, forward);
+        return [(1 + dot(d, right) / (half * s.view.aspect)) / 2, (1 - dot(d, up) / half) / 2];
+      })()`,
+      [east, north],
+    );
+  const colorsAt = async (points) => {
+    const { width, height, channels, data } = readPng(await visit.page.locator("svt-picture").screenshot());
+    return Promise.all(
+      points.map(async ([east, north]) => {
+        const [x, y] = await seen(east, north);
+        assert.ok(x > 0 && x < 1 && y > 0 && y < 1, `${east}, ${north} is in the picture`);
+        const at = (Math.floor(y * height) * width + Math.floor(x * width)) * channels;
+        return [...data.slice(at, at + 3)];
+      }),
+    );
+  };
+  const isNear = (found, wanted) => found.every((value, i) => Math.abs(value - wanted[i]) < 25);
+  const isSeen = async () => {
+    const colors = await colorsAt(around.map(([x, y]) => [500000 + x, 5400000 + y]));
+    for (const [n, [x, y, wanted]] of around.entries()) assert.ok(isNear(colors[n], wanted), `at ${x}, ${y}: ${colors[n]}, not ${wanted}`);
+  };
+  /** A TIFF with tags of GeoTIFF: compressed by deflate with differences of neighbours. */
+  const geoTiff = (epsg) => {
+    const rows = Buffer.alloc(64 * 64 * 3);
+    for (let y = 0; y < 64; ++y)
+      for (let x = 63; x >= 0; --x) quarters(x, y).forEach((v, c) => (rows[(y * 64 + x) * 3 + c] = v - (x ? quarters(x - 1, y)[c] : 0)));
+    const data = deflateSync(rows);
+    const doubles = (...values) => Buffer.from(new Float64Array(values).buffer);
+    const shorts = (...values) => Buffer.from(new Uint16Array(values).buffer);
+    /** @type {[number, number, Buffer | null][]} */
+    const fields = [
+      [256, 3, shorts(64)],
+      [257, 3, shorts(64)],
+      [258, 3, shorts(8, 8, 8)],
+      [259, 3, shorts(8)],
+      [262, 3, shorts(2)],
+      [273, 4, null],
+      [277, 3, shorts(3)],
+      [278, 3, shorts(64)],
+      [279, 4, Buffer.from(new Uint32Array([data.length]).buffer)],
+      [317, 3, shorts(2)],
+      [33550, 12, doubles(0.625, 0.625, 0)],
+      [33922, 12, doubles(0, 0, 0, west, north, 0)],
+      [34735, 3, shorts(1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, epsg)],
+    ];
+    const head = Buffer.alloc(8 + 2 + fields.length * 12 + 4);
+    head.set([0x49, 0x49, 42, 0, 8, 0, 0, 0]);
+    head.writeUInt16LE(fields.length, 8);
+    /** @type {Buffer[]} */
+    const parts = [head];
+    let end = head.length;
+    const kSize = { 3: 2, 4: 4, 12: 8 };
+    for (const [n, [tag, type, given]] of fields.entries()) {
+      const at = 10 + 12 * n,
+        body = given ?? Buffer.alloc(4);
+      head.writeUInt16LE(tag, at);
+      head.writeUInt16LE(type, at + 2);
+      head.writeUInt32LE(body.length / kSize[type], at + 4);
+      if (given && body.length <= 4) body.copy(head, at + 8);
+      else head.writeUInt32LE(end, at + 8);
+      if (!given) head.writeUInt32LE(0, at + 8);
+      if (given && body.length > 4) {
+        parts.push(body);
+        end += body.length;
+      }
+    }
+    const strip = fields.findIndex(([tag]) => tag === 273);
+    head.writeUInt32LE(end, 10 + 12 * strip + 8);
+    return Buffer.concat([...parts, data]);
+  };
+
+  it("is a picture with a world file, at its place, only on the screen", async () => {
+    const picture = () =>
+      inPage("(async () => [...new Uint8Array(await s.volume.engine.picture(await s.view.composed([320, 180])))].join())()");
+    await show();
+    await stepBack();
+    const before = await picture();
+    await choose({ name: "ground.png", bytes: writePng(64, 64, quarters) }, { name: "ground.pgw", bytes: worldFile });
+    await laid();
+    await isSeen();
+    if (process.env.SVT_SHOTS) await visit.page.screenshot({ path: join(process.env.SVT_SHOTS, "basemap.png") });
+    assert.equal(await visit.page.locator("#ground-source").innerText(), "ground.png");
+    assert.equal((await inPage("s.view.composed([320, 180])")).transparent, undefined);
+    assert.ok((await picture()) === before, "a saved picture does not have it");
+  });
+
+  it("hides what is below it, and is hidden from below", async () => {
+    await inPage("s.view.lay(s.view.ground.at(s.volume.info.origin[2] + 2))");
+    await settled();
+    assert.equal(await inPage("s.view.describe(s.view.size, 1, true).scene.passes[0].keep"), "z>2");
+    assert.equal(await inPage("s.messages.message"), null);
+    await visit.page.keyboard.press("7");
+    await settled();
+    assert.equal(await visit.page.locator("svt-ground canvas").isVisible(), false);
+    assert.equal(await inPage("s.view.describe(s.view.size, 1, true).scene.transparent"), undefined);
+    await visit.page.click("#basemap-remove");
+    assert.equal(await visit.page.locator("svt-ground").count(), 0);
+    await visit.page.keyboard.press("1");
+    await settled();
+  });
+
+  it("is a GeoTIFF, unless it has another reference system", async () => {
+    await show();
+    await stepBack();
+    await choose({ name: "other.tif", bytes: geoTiff(31468) });
+    await visit.message(/EPSG:31468/);
+    await choose({ name: "ground.tif", bytes: geoTiff(25832) });
+    await laid();
+    await isSeen();
+    await visit.page.click("#basemap-remove");
+    for (const [name, bytes, reason] of [
+      ["broken.tif", geoTiff(25832).subarray(0, 150), /damaged/],
+      ["text.png", Buffer.from("no picture"), /This browser cannot read the picture text\.png/],
+    ]) {
+      await choose({ name, bytes });
+      await visit.message(reason);
+    }
+    await choose({ name: "plain.png", bytes: writePng(64, 64, quarters) });
+    await visit.page.locator("#basemap-note").getByText("does not state its place").waitFor();
+    await visit.page.fill("#basemap-extent", "0 0 40 40");
+    await visit.page.click("#basemap-show");
+    await visit.message(/does not lie below the model/);
+    await visit.page.fill("#basemap-extent", `${west} ${north - 40} ${west + 40} ${north}`);
+    await visit.page.keyboard.press("Enter");
+    await laid();
+    await isSeen();
+    await visit.page.fill("#basemap-extent", "");
+    await visit.page.click("#basemap-remove");
+  });
+
+  it("has tiles of an address, which is asked only when Show is pressed, and names their source", async () => {
+    const asked = [];
+    await visit.page.route("**/tiles/**", (route) => {
+      const [z, x, y] = /\/tiles\/(\d+)\/(\d+)\/(\d+)\.png/.exec(route.request().url()).slice(1).map(Number);
+      asked.push([z, x, y]);
+      return route.fulfill({ contentType: "image/png", body: writePng(8, 8, () => [40 * (x % 6), 40 * (y % 6), 120]) });
+    });
+    await show();
+    await stepBack();
+    await visit.page.fill("#basemap-address", "tiles/{z}/{x}/{y}.png");
+    await visit.page.fill("#basemap-attribution", "Map of the test");
+    await visit.page.waitForTimeout(300);
+    assert.deepEqual(asked, []);
+    await visit.page.click("#basemap-show");
+    await laid();
+    assert.ok(asked.length > 4 && asked.length <= 64, `${asked.length} tiles`);
+    assert.equal(await visit.page.locator("#ground-source").innerText(), "Map of the test");
+    const [[z]] = asked;
+    const points = around.map(([x, y]) => [500000 + x, 5400000 + y]);
+    const colors = await colorsAt(points);
+    const degrees = await inPage("s.volume.engine.places(v)", points);
+    for (const [n, [longitude, latitude]] of degrees.entries()) {
+      const sine = Math.sin((latitude * Math.PI) / 180);
+      const at = [(longitude + 180) / 360, 0.5 - Math.log((1 + sine) / (1 - sine)) / (4 * Math.PI)].map((share) => share * 2 ** z);
+      // A pixel at the border of a tile has the colours of both.
+      if (at.some((v) => Math.abs(v - Math.round(v)) < 0.05)) continue;
+      const wanted = [40 * (Math.floor(at[0]) % 6), 40 * (Math.floor(at[1]) % 6), 120];
+      assert.ok(isNear(colors[n], wanted), `at ${points[n]}: ${colors[n]}, not ${wanted}`);
+    }
+    await visit.page.evaluate(axe);
+    const { violations } = await visit.page.evaluate(() =>
+      globalThis.axe.run({ include: { fromShadowDom: ["svt-app", "svt-look-tool", "svt-basemap"] } }, { resultTypes: ["violations"] }),
+    );
+    const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
+    assert.deepEqual(
+      serious.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join()}`),
+      [],
+    );
+    await visit.page.click("#basemap-remove");
+  });
+
+  it("states why nothing comes from an address", async () => {
+    await show();
+    await visit.page.fill("#basemap-address", "https://tile.example.org/{z}/{x}/{y}.png");
+    await visit.page.click("#basemap-show");
+    await visit.message(/may not fetch pictures from https:\/\/tile\.example\.org.*--allow-images/);
+    await visit.page.fill("#basemap-address", "missing.png");
+    await visit.page.click("#basemap-show");
+    await visit.message(/There is no picture at this address/);
+    await visit.page.fill("#basemap-address", "https://example.org/{z}/{x}");
+    await visit.page.click("#basemap-show");
+    await eventually(async () => assert.ok(await inPage("s.messages.message")));
+    assert.equal(await inPage("s.view.ground"), null);
+    await visit.page.fill("#basemap-address", "");
+    await inPage("(s.messages.message = null, s.view.turn(s.view.state.camera))");
   });
 });

@@ -37,6 +37,8 @@ export interface ActionHost {
   help(): void;
   switchTheme(): void;
   choose(): void;
+  /** Opens the panel that compares two states. */
+  compare(): void;
   openPalette(): void;
   openTable(): void;
   /** Shows a plan and two sections beside the picture, or closes them. */
@@ -106,7 +108,7 @@ function viewActions(session: Session): Action[] {
       text: () => t("undo", { what: "" }).replace(/:\s*$/, ""),
       icon: "undo",
       keys: ["ctrl+z"],
-      isEnabled: () => view.history.last !== null,
+      isEnabled: () => view.undoable !== null,
       run: () => view.undo(),
     },
     {
@@ -168,6 +170,7 @@ function pageActions(host: ActionHost, hasParts: () => boolean): Action[] {
     },
     { id: "refine", text: () => t("makeFiner"), icon: "plus", isEnabled: () => model.refining.isCoarse, run: () => model.refining.again() },
     { id: "open", text: () => t("open"), icon: "open", run: () => host.choose() },
+    { id: "compare", text: () => t("compare"), icon: "flip", isEnabled: () => !volume.isServerOnly, run: () => host.compare() },
     { id: "theme", text: () => t("theme"), icon: "moon", run: () => host.switchTheme() },
     ...languages.all.map(({ code, name }): Action => ({
       id: `language-${code}`,
@@ -193,6 +196,7 @@ function toolActions(host: ActionHost): Action[] {
     press("plane-by-face", () => `${t("section")}: ${toolText("planeByFace")}`, "section", "section", "#plane-by-face"),
     press("section-box", () => toolText("sectionBox"), "section", "section", "#section-box"),
     press("sun", () => toolText("sun"), "sun", "look", "#sun"),
+    press("basemap", () => toolText("basemap"), "image", "look", "#basemap"),
     press("next-view", () => toolText("nextView"), "bookmark", "share", "#next-view"),
     press("sheets", () => t("sheets"), "section", "section", "#draw-sheets"),
     press("print-sheets", () => `${t("sheets")}: ${toolText("print")}`, "section", "section", "#print-sheets"),

@@ -8,6 +8,7 @@ import "./canvas/picture";
 import type { PictureTools } from "./canvas/overlay";
 import type { PickEvent, PictureView } from "./canvas/picture";
 import type { SectionPanes } from "./canvas/section_panes";
+import type { ChangesPanel } from "./comparing/changes_panel";
 import type { CommandPalette } from "./panels/command_palette";
 import type { ContextMenu } from "./panels/context_menu";
 import type { HelpDialog } from "./panels/help_dialog";
@@ -17,11 +18,10 @@ import "./panels/properties_panel";
 import "./panels/start_panel";
 import "./panels/tree_panel";
 import type { TreePanel } from "./panels/tree_panel";
-import { stepText, type Tool } from "./session/view";
+import type { Tool } from "./session/view";
 import { kFileKinds } from "./opening";
 import { menuActions, nameOfSelection } from "./selection_actions";
 import type { Message } from "./session/messages";
-import type { Changed } from "./state/history";
 import { isSameChoice, type ViewState } from "./state/view_state";
 import "./tools/focus_tool";
 import "./tools/lens_tool";
@@ -54,7 +54,9 @@ export class App extends Part implements ActionHost {
     isSelectionShown: { state: true },
     isTableShown: { state: true },
     isFourShown: { state: true },
+    isComparing: { state: true },
     isDropping: { state: true },
+    dropAt: { state: true },
     dockAt: { state: true },
     preview: { attribute: false },
   };
@@ -66,7 +68,11 @@ export class App extends Part implements ActionHost {
   declare isTableShown: boolean;
   /** A plan and two sections are beside the picture. */
   declare isFourShown: boolean;
+  /** The panel of a comparison is in the place of the table. */
+  declare isComparing: boolean;
   declare isDropping: boolean;
+  /** What dropped files are for: they can also be compared. null: only to open them. */
+  declare dropAt: "open" | "compare" | null;
   /** The tool that the Tab key reaches. */
   declare dockAt: number;
   /** Address of a picture that is shown until the model has one of its own; empty: none. */
@@ -93,7 +99,8 @@ export class App extends Part implements ActionHost {
     this.isSelectionShown = true;
     this.isTableShown = false;
     this.isFourShown = false;
-    this.isDropping = false;
+    this.isComparing = this.isDropping = false;
+    this.dropAt = null;
     this.dockAt = 0;
     this.preview = "";
   }
@@ -108,6 +115,7 @@ export class App extends Part implements ActionHost {
     this.addEventListener("svt-choose", () => this.choose());
     this.addEventListener("svt-menu", (event) => void this.openMenu(event as MenuRequest));
     this.addEventListener("svt-close-table", () => this.openTable());
+    this.addEventListener("svt-close-changes", () => this.endComparing());
   }
 
   private get isHuge(): boolean {
@@ -137,6 +145,7 @@ export class App extends Part implements ActionHost {
     if (view.isWalking && !this.wasWalking) this.picture?.focus();
     if (view.aim) void this.loaded("svt-aim", () => import("./tools/aim_layer"));
     else if (this.wasAiming) this.picture?.focus();
+    if (view.now.colorBy) void this.loaded("svt-color-legend", () => import("./panels/color_legend"));
     if (view.isWalking && isTouch()) void this.loaded("svt-walk-pad", () => import("./tools/walk_pad"));
     this.wasWalking = view.isWalking;
     this.wasAiming = view.aim !== null;
@@ -148,16 +157,22 @@ export class App extends Part implements ActionHost {
     const { session } = this;
     const hasModel = session.volume.info !== null;
     const isEmpty = session.model.status === "empty" && !hasModel;
+    const isTable = this.isTableShown && hasModel;
+    const below = this.isComparing
+      ? html`<section class="table" aria-label=${t("compare")}><svt-changes .session=${session}></svt-changes></section>`
+      : isTable
+        ? html`<section class="table" aria-label=${t("tableHint")}><svt-table .session=${session}></svt-table></section>`
+        : nothing;
     return html`
       <button class="skip" @click=${() => this.picture?.focus()}>${t("skipToPicture")}</button>
       ${this.bar()}
-      <main class=${this.isTableShown && hasModel ? "with-table" : ""}>
+      <main class=${below === nothing ? "" : "with-table"}>
         ${isEmpty ? html`<svt-start .session=${session}></svt-start>` : hasModel && !this.isNarrow ? this.wide() : this.middle()}
         ${this.isNarrow && hasModel ? this.sheets() : nothing}
-        ${this.isTableShown && hasModel ? html`<section class="table" aria-label=${t("tableHint")}><svt-table .session=${session}></svt-table></section>` : nothing}
+        ${below}
         ${this.preview ? this.arriving() : session.messages.progress ? this.progress() : nothing}
         ${session.messages.message ? this.message() : nothing}
-        ${this.isDropping ? html`<div class="dropping">${t("dropNow")}</div>` : nothing}
+        ${this.isDropping ? this.dropZones() : nothing}
       </main>
       <div class="visually-hidden" role="status" aria-live="polite" id="said">${session.messages.said}</div>
       <input type="file" id="file" hidden multiple accept=${[...kFileKinds, ".gz", ".csv"].join(",")} aria-label=${t("openHint", { kinds: kFileKinds.join(", ") })} @change=${this.chosen} />
@@ -190,11 +205,12 @@ export class App extends Part implements ActionHost {
             ${this.toggle("info", t("panelProperties"), this.isSelectionShown && (!this.session.selection.isEmpty || !this.isSmall), () => this.showSheet("selection"))}`
           : nothing
       }
-      ${hasModel && !volume.isServerOnly ? html`${this.stepButton("undo", view.history.last, () => view.undo())}${this.stepButton("redo", view.history.next, () => view.redo())}` : nothing}
+      ${hasModel && !volume.isServerOnly ? html`${this.stepButton("undo", view.undoable, () => view.undo())}${this.stepButton("redo", view.redoable, () => view.redo())}` : nothing}
       ${hasModel && !volume.isServerOnly ? html`<button class="bare" id="table" aria-pressed=${this.isTableShown} aria-label=${t("tableHint")} title="${t("tableHint")} (T)" @click=${() => this.openTable()}>${icon("table")}</button>` : nothing}
       ${hasModel && !volume.isServerOnly ? html`<button class="bare" id="four" aria-pressed=${this.isFourShown} aria-label=${t("fourViews")} title="${t("fourViews")} (J)" @click=${() => this.openFour()}>${icon("four")}</button>` : nothing}
       <button class="bare" id="actions" aria-haspopup="dialog" aria-label=${t("actionsHint")} title=${t("actionsHint")} @click=${() => this.openPalette()}>${icon("menu")}</button>
       <button class="bare" id="open" aria-label=${t("openHint", { kinds: kFileKinds.join(", ") })} title=${t("openHint", { kinds: kFileKinds.join(", ") })} @click=${() => this.choose()}>${icon("open")}</button>
+      ${volume.isServerOnly ? nothing : html`<button class="bare" id="compare" aria-pressed=${this.isComparing} aria-label=${t("compare")} title=${t("compare")} @click=${() => (this.isComparing ? this.endComparing() : this.compare())}>${icon("flip")}</button>`}
       <button class="bare" id="theme" aria-label=${t("theme")} title=${t("theme")} @click=${() => this.switchTheme()}>${icon(theme() === "dark" ? "sun" : "moon")}</button>
       ${
         languages.all.length > 2
@@ -212,16 +228,16 @@ export class App extends Part implements ActionHost {
     return html`<button class="bare" aria-pressed=${isOn} aria-label=${t("showPanel", { panel })} title=${panel} @click=${act}>${icon(name)}</button>`;
   }
 
-  private stepButton(which: "undo" | "redo", changed: Changed | null, act: () => void) {
-    const text = changed ? t(which, { what: stepText(changed) }) : t(`${which}Nothing`);
-    return html`<button class="bare" id=${which} ?disabled=${!changed} aria-label=${text} title=${text} @click=${act}>${icon(which)}</button>`;
+  private stepButton(which: "undo" | "redo", what: string | null, act: () => void) {
+    const text = what === null ? t(`${which}Nothing`) : t(which, { what });
+    return html`<button class="bare" id=${which} ?disabled=${what === null} aria-label=${text} title=${text} @click=${act}>${icon(which)}</button>`;
   }
 
   showSheet(which: "tree" | "selection"): void {
     const isTree = which === "tree";
     const isOn = isTree ? !this.isTreeShown : !this.isSelectionShown;
     if (this.isNarrow && isOn) {
-      this.isTableShown = false;
+      this.isTableShown = this.isComparing = false;
       this.isTreeShown = this.isSelectionShown = false;
       this.session.view.tool = null;
     }
@@ -287,6 +303,7 @@ export class App extends Part implements ActionHost {
           ${session.volume.isServerOnly ? html`<div class="note">${t("serverPictures")}</div>` : nothing}
           ${session.model.refining.isCoarse ? this.coarse() : nothing}
           ${this.missingTiles()}
+          ${view.now.colorBy ? html`<svt-color-legend .session=${session}></svt-color-legend>` : nothing}
           ${session.selection.isMore ? html`<div class="note" id="more">${toolText("moreNow")}<button @click=${() => (session.selection.isMore = false)}>${toolText("moreEnd")}</button></div>` : nothing}
           ${picture.moved.length && view.now.sections.length ? html`<div class="note" id="moved-plane">${movedText(picture.moved)}</div>` : nothing}
           ${view.isLegendShown ? html`<svt-legend .session=${session}></svt-legend>` : nothing}
@@ -324,22 +341,9 @@ export class App extends Part implements ActionHost {
 
   private status() {
     const { report } = this.session.picture;
-    // The legend of colours is in the same corner.
     if (!report) return nothing;
-    if (this.session.view.now.colorBy) return this.scale();
     const { width, height, milliseconds, engine } = report;
     return html`<div class="status">${t(engine === "cpu" ? "cpuKind" : "glKind")}<br />${t("frame", { width, height, ms: number(milliseconds, 0) })}</div>`;
-  }
-
-  /** The legend of the picture, as text. */
-  private scale() {
-    const { scale } = this.session.picture;
-    if (!scale) return nothing;
-    const rows = scale.isRamp
-      ? [t("legendRange", { low: number(scale.low, 2), high: number(scale.high, 2) })]
-      : scale.entries.map(({ text, count }) => `${text}: ${count}`);
-    if (scale.missing) rows.push(t("legendMissing", { n: scale.missing }));
-    return html`<ul id="color-scale" class="visually-hidden" aria-label=${`${t("legend")}: ${scale.title}`}>${rows.map((row) => html`<li>${row}</li>`)}</ul>`;
   }
 
   private dock() {
@@ -410,7 +414,7 @@ export class App extends Part implements ActionHost {
     const { session } = this;
     if (session.view.aim === "point") session.view.aim = null;
     session.view.tool = session.view.tool === tool ? null : tool;
-    if (session.view.tool && this.isNarrow) this.isTreeShown = this.isSelectionShown = this.isTableShown = false;
+    if (session.view.tool && this.isNarrow) this.isTreeShown = this.isSelectionShown = this.isTableShown = this.isComparing = false;
     if (session.view.tool === "lens" && session.view.now.effect !== "lens")
       session.view.set({ effect: "lens", lens: { ...session.view.now.lens, pinned: false } });
   }
@@ -497,13 +501,47 @@ export class App extends Part implements ActionHost {
     if (!event.dataTransfer?.types.includes("Files")) return;
     event.preventDefault();
     this.isDropping = true;
+    const { info, isServerOnly, isCity } = this.session.volume;
+    const n = [...event.dataTransfer.items].filter(({ kind }) => kind === "file").length;
+    const isPair = n === 2 || (n === 1 && info !== null && !isCity);
+    this.dropAt = isServerOnly || !isPair ? null : 2 * event.clientX > innerWidth ? "compare" : "open";
+  }
+
+  private dropZones() {
+    const { dropAt } = this;
+    if (!dropAt) return html`<div class="dropping">${t("dropNow")}</div>`;
+    return html`<div class="dropping half ${dropAt === "open" ? "" : "off"}">${t("dropNow")}</div>
+      <div class="dropping half at-end ${dropAt === "open" ? "off" : ""}">${t("dropCompare")}</div>`;
   }
 
   private dropped(event: DragEvent): void {
     event.preventDefault();
     this.isDropping = false;
     const files = [...(event.dataTransfer?.files ?? [])];
-    if (files.length) this.onFiles(files);
+    if (files.length && this.dropAt === "compare") this.compare(files);
+    else if (files.length) this.onFiles(files);
+  }
+
+  /** Shows the panel that compares two states. @param linked  names of the states, and the view of a link */
+  compare(files: File[] = [], linked: Parameters<ChangesPanel["follow"]>[0] | null = null): void {
+    if (this.session.volume.isServerOnly) return;
+    this.isComparing = true;
+    if (this.isNarrow) {
+      this.isTreeShown = this.isSelectionShown = this.isTableShown = false;
+      this.session.view.tool = null;
+    }
+    void this.loaded<ChangesPanel>("svt-changes", () => import("./comparing/changes_panel")).then(async (panel) => {
+      await panel?.updateComplete;
+      if (linked) panel?.follow(linked);
+      else if (files.length) panel?.take(files);
+      else panel?.focus();
+    });
+  }
+
+  /** Closes the panel. What the picture shows stays. */
+  private endComparing(): void {
+    this.isComparing = false;
+    void this.updateComplete.then(() => (this.renderRoot.querySelector<HTMLElement>("#compare:not([hidden])") ?? this.picture)?.focus());
   }
 
   private keyDown(event: KeyboardEvent): void {
@@ -540,7 +578,8 @@ export class App extends Part implements ActionHost {
 
   /** Shows the table of objects, or closes it. */
   openTable(): void {
-    this.isTableShown = !this.isTableShown;
+    this.isTableShown = this.isComparing || !this.isTableShown;
+    this.isComparing = false;
     if (!this.isTableShown) return void this.updateComplete.then(() => this.renderRoot.querySelector<HTMLElement>("#table")?.focus());
     if (this.isNarrow) this.isTreeShown = this.isSelectionShown = false;
     if (this.isNarrow) this.session.view.tool = null;

@@ -72,6 +72,9 @@ export const appStyles = css`
   .preview { position: absolute; inset: 0; width: 100%; height: 100%; object-fit: contain; background: #fff; filter: var(--preview, none); pointer-events: none; }
   progress { width: 100%; height: 6px; accent-color: var(--accent); }
   .dropping { position: absolute; inset: 10px; border: 3px dashed var(--accent); border-radius: 18px; display: grid; place-items: center; background: color-mix(in srgb, var(--panel) 75%, transparent); font-size: 20px; font-weight: 600; z-index: 9; pointer-events: none; }
+  .dropping.half { right: calc(50% + 5px); }
+  .dropping.at-end { left: calc(50% + 5px); right: 10px; }
+  .dropping.off { border-color: var(--line-strong); font-weight: 400; }
   .skip { position: absolute; left: 8px; top: -60px; z-index: 20; }
   .skip:focus { top: 6px; }
   .note { padding: 6px 10px; border: 1px solid var(--line); border-radius: 10px; background: var(--panel); font-size: 12px; display: grid; gap: 6px; max-width: 300px; }
@@ -109,7 +112,7 @@ export const appStyles = css`
   @media (max-width: 479px) {
     header { flex-wrap: wrap; justify-content: space-between; }
     /* The list of actions has them. */
-    #theme, #table, #four { display: none; }
+    #theme, #table, #four, #compare { display: none; }
     .title { flex-basis: 100%; padding-left: 6px; }
     .title select { max-width: 100%; }
     header .languages { width: auto; }

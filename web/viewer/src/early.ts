@@ -14,7 +14,9 @@ export const creating = createEngine(canvas, wantedEngine(), { mayUseThreads: ma
   arrival.module = { done, all };
 });
 creating.catch(() => undefined);
-export const listing = readModels(new URLSearchParams(location.search).get("model"));
+const wanted = new URLSearchParams(location.search);
+/** The old state of a comparison is opened first. */
+export const listing = readModels(wanted.get("model") ?? wanted.get("old"));
 void listing.then(({ bytes }) => (arrival.volume = bytes));
 
 /** `?engine=cpu` or `webgl2` selects one renderer; by default the page determines the faster one. */

@@ -228,9 +228,12 @@ export interface ColorScale {
   isRamp: boolean;
   low: number;
   high: number;
-  entries: { text: string; count: number }[];
-  /** Components without a value, which are gray. */
+  /** Colours at equal steps from low to high, `#rrggbb`. Absent: unknown. */
+  ramp?: string[];
+  entries: { text: string; count: number; color?: string }[];
+  /** Components without a value, and their colour. */
   missing: number;
+  missingColor?: string;
 }
 
 /** The type of a call: its arguments and its result. */
@@ -276,6 +279,8 @@ export const kCalls = {
   step: call<(eye: Point, by: Point) => Point>(),
   /** The meaning of the colours of a scene with colorBy. */
   legend: call<(scene: Scene) => ColorScale>(),
+  /** Longitude and latitude, degrees, of points in coordinates of the model: east and north. */
+  places: call<(points: [number, number][]) => [number, number][]>(),
   /** The planes of the scene that lie in faces of the model. */
   movedPlanes: call<(scene: Scene) => MovedPlane[]>(),
   /** Plans, sections, elevations and tables on sheets, as SVG documents; as in `svt sheets`. */

@@ -11,7 +11,6 @@ import { stateOfHash } from "./state/link";
 import { initialState, type ViewState } from "./state/view_state";
 import { t } from "./texts";
 import { startTheme, theme } from "./ui/theme";
-import { createServerEngine } from "./engine_server";
 import type { Engine, EngineError } from "./engine";
 
 /** Milliseconds after which the components load even without a first picture. */
@@ -61,12 +60,18 @@ function loadComponents(): void {
 void until(() => session.picture.quality === "fine" && !session.volume.isCity).then(() =>
   session.volume.engine?.prepare().catch(() => undefined),
 );
+/** Loads the other scripts, so that the page then needs no connection. */
+void until(() => session.picture.quality === "fine").then(async () => {
+  if (!(navigator as { connection?: { saveData?: boolean } }).connection?.saveData)
+    await import("./late").then(({ loadLate }) => loadLate()).catch(() => undefined);
+});
 
 /** The library in the browser; else pictures from the server. */
 async function startEngine(): Promise<Engine> {
   try {
     return await creating;
   } catch (error) {
+    const { createServerEngine } = await import("./engine_server");
     const server = await createServerEngine(canvas);
     if (!server) throw error;
     session.volume.isServerOnly = true;
@@ -95,14 +100,18 @@ async function start(): Promise<void> {
     return session.messages.fail({ message: `${t("cannotRun")} ${(error as EngineError).message ?? ""}` });
   }
   session.start(engine);
-  const file = new URLSearchParams(location.search).get("file");
+  const wanted = new URLSearchParams(location.search);
+  const file = wanted.get("file"),
+    newState = wanted.get("new");
   if (file !== null) {
     const state = await linked;
     if (await openKept(session, file, state)) return;
     session.model.awaited = { file, state };
   }
-  if (list.chosen) await openModel(session, list.chosen.name, file === null ? await linked : null, list.bytes, list.files);
-  if (list.note) session.messages.tell(list.note);
+  const state = file === null && newState === null ? await linked : null;
+  if (list.chosen) await openModel(session, list.chosen.name, state, list.bytes, list.files);
+  if (newState !== null) app.compare([], { old: wanted.get("old") ?? "", new: newState, state: await linked });
+  else if (list.note) session.messages.tell(list.note);
   // Opening a model clears messages.
   if (isDamaged) session.messages.fail({ message: t("badLink") });
   if (file !== null) session.messages.tell(t("awaitsFile", { name: file }));

@@ -19,6 +19,8 @@ const kTexts = {
     "Ein Volumen (.svt) oder CityGML, CityJSON, IFC oder IndoorGML ({kinds}), eines oder mehrere. Es bleibt auf diesem Rechner.",
   ],
   dropNow: ["Drop to open", "Loslassen zum Öffnen"],
+  dropCompare: ["Drop to compare", "Loslassen zum Vergleichen"],
+  compare: ["Compare with …", "Vergleichen mit …"],
   choose: ["Choose a file", "Datei wählen"],
   startFeatures: [
     "Cut it along any plane, look through walls with a lens, find rooms and walls by name, and share the view as a link.",

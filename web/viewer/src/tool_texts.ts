@@ -61,6 +61,8 @@ const kToolTexts = {
   atCutCorner: ["at a corner of the cut", "an einer Ecke des Schnitts"],
   atCutEdge: ["on an edge of the cut", "auf einer Kante des Schnitts"],
 
+  basemap: ["Basemap", "Grundkarte"],
+
   sun: ["Sun and shadows", "Sonne und Schatten"],
   sunHint: ["Light by the sun, with shadows", "Licht der Sonne, mit Schatten"],
   sunDay: ["Day", "Tag"],

@@ -243,6 +243,7 @@ export class PictureView extends Part {
     const isReady = session.model.status === "ready" && session.volume.info !== null && !isStill;
     const label = this.label || t(isStill ? "stillLabel" : "pictureLabel", { name: session.volume.info?.name || t("model") });
     return html`
+      ${session.view.ground ? html`<svt-ground .session=${session}></svt-ground>` : nothing}
       ${this.canvas}
       <div class="stage ${session.view.tool === "measure" ? "measuring" : ""} ${this.inputs}" data-picture tabindex=${isStill ? nothing : 0}
         role=${isStill ? "img" : "application"} aria-roledescription=${isStill ? nothing : t("picture")} aria-label=${label} @keydown=${this.menuKey}></div>

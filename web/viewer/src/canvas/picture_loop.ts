@@ -15,7 +15,7 @@ export interface PictureHost {
   engine: Engine;
   /** Size of the canvas, device pixels. */
   size(): [number, number];
-  describe(size: [number, number], samples: Samples): Described | null;
+  describe(size: [number, number], samples: Samples, quality: Quality): Described | null;
   /** Called when a frame is on the canvas; `token` is the result of take() when it was requested. */
   shown(report: FrameReport, quality: Quality, token: unknown): void;
   take(): unknown;
@@ -85,7 +85,7 @@ export class PictureLoop {
 
   private async draw(quality: Quality): Promise<void> {
     const size = pixelsAt(this.host.size(), quality === "moving" ? this.resolution.share : 1);
-    const described = this.host.describe(size, quality === "fine" ? kSceneMembers["/samples"].default : 1);
+    const described = this.host.describe(size, quality === "fine" ? kSceneMembers["/samples"].default : 1, quality);
     this.quality = quality;
     if (!described) return;
     const token = this.host.take();

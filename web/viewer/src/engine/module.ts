@@ -7,12 +7,12 @@ import createWhole from "../../../../build/web/svt.js";
 import createView, { type SvtModule, type SvtModuleOptions } from "../../../../build/web/svt_view.js";
 import { lengthOf } from "../download";
 import type { EngineError } from "../engine";
+import { compiled, instantiated, type Create } from "./instantiate";
 import { kWithoutThreads } from "./protocol";
 
 export type ModuleKind = "view" | "whole";
 
 type OnProgress = NonNullable<SvtModuleOptions["onProgress"]>;
-type Create = typeof createView;
 /** Told how many bytes of a module have come, of how many; 0: unknown. */
 export type OnReceived = (done: number, all: number) => void;
 /** Sizes of the modules by name, from vite.config.ts, for servers that compress them. */
@@ -63,7 +63,9 @@ function begin(kind: ModuleKind, onReceived?: OnReceived): Promise<Begun> {
 
 async function load(files: Files, onReceived?: OnReceived): Promise<Begun> {
   // Compiles while the script is still loading.
-  const compiling = compiled(files.wasm, onReceived);
+  const response = fetch(files.wasm);
+  if (onReceived) void response.then((given) => count(given.clone(), files.wasm, onReceived)).catch(() => undefined);
+  const compiling = compiled(files.wasm, response);
   compiling.catch(() => undefined);
   const { script } = files;
   const create = script instanceof URL ? ((await import(/* @vite-ignore */ script.href)) as { default: Create }).default : script;
@@ -98,13 +100,6 @@ export function prepareWhole(): boolean {
   return true;
 }
 
-/** Compiles during the download. If a server sends the wrong type, compiles after the download, which is slower. */
-async function compiled(url: URL, onReceived?: OnReceived): Promise<WebAssembly.Module> {
-  const response = fetch(url);
-  if (onReceived) void response.then((given) => count(given.clone(), url, onReceived)).catch(() => undefined);
-  return WebAssembly.compileStreaming(response).catch(async () => WebAssembly.compile(await (await fetch(url)).arrayBuffer()));
-}
-
 /** Counts the bytes of a copy of the response, so that the browser can keep the code that it compiles from the original. */
 async function count(response: Response, url: URL, onReceived: OnReceived): Promise<void> {
   if (!response.ok || !response.body) return;
@@ -121,23 +116,10 @@ async function count(response: Response, url: URL, onReceived: OnReceived): Prom
   }
 }
 
-/** Reports an error if the instance cannot be made. Emscripten's script would wait for it forever. */
 function made({ files, wasm, create }: Begun, onProgress: OnProgress): Promise<SvtModule> {
-  return new Promise((resolve, reject) => {
-    const instantiateWasm: SvtModuleOptions["instantiateWasm"] = (imports, receive) => {
-      try {
-        const instance = new WebAssembly.Instance(wasm, imports);
-        receive(instance, wasm);
-        return instance.exports;
-      } catch (error) {
-        reject(error);
-        throw error;
-      }
-    };
-    const { script, worker } = files;
-    const ofThreads: SvtModuleOptions = worker
-      ? { mainScriptUrlOrBlob: (script as URL).href, locateFile: (name) => (name === worker[0] ? worker[1].href : name) }
-      : {};
-    create({ onProgress, ...ofThreads, instantiateWasm }).then(resolve, reject);
-  });
+  const { script, worker } = files;
+  const ofThreads: SvtModuleOptions = worker
+    ? { mainScriptUrlOrBlob: (script as URL).href, locateFile: (name) => (name === worker[0] ? worker[1].href : name) }
+    : {};
+  return instantiated(create, wasm, { onProgress, ...ofThreads });
 }

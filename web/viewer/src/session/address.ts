@@ -42,14 +42,13 @@ export class Address {
     }
   }
 
-  /** The address without the view: with the open model if there are several, or with the name of a local file. */
+  /** The address without the view: with the open model if there are several, or with the names of local or compared files. */
   private plain(): string {
-    const { name, models, isLocal, file } = this.volume;
+    const { name, models, isLocal, file, compared } = this.volume;
     const url = new URL(location.href);
-    if (name && models.length > 1) url.searchParams.set("model", name);
-    else url.searchParams.delete("model");
-    if (isLocal) url.searchParams.set("file", file);
-    else url.searchParams.delete("file");
+    const named = compared ?? { ...(name && models.length > 1 ? { model: name } : {}), ...(isLocal ? { file } : {}) };
+    for (const key of ["model", "file", "old", "new"]) url.searchParams.delete(key);
+    for (const [key, value] of Object.entries(named)) url.searchParams.set(key, value);
     return url.pathname + url.search;
   }
 }

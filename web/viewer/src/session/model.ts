@@ -38,8 +38,8 @@ export class Model extends ViewPart {
   awaited: { file: string; state: ViewState | null } | null = null;
   readonly refining: Refining;
   readonly owners: Owners;
-  /** Fetches the bytes of the open model again, for a restarted library. */
-  private source: Source | null = null;
+  /** Fetches the bytes of the open model again, for a restarted library; null: a city. */
+  source: Source | null = null;
   private openedWith: OpenOptions = {};
   private restartedAt = -Infinity;
   /** The page shows a model that is no longer open in the library. */
@@ -167,6 +167,7 @@ export class Model extends ViewPart {
     this.source = from.source;
     this.volume.file = from.file;
     this.volume.otherFiles = from.otherFiles;
+    this.volume.compared = null;
     this.owners.forget();
     this.take(info, from.state ?? { ...initialState(this.view.state.look), wireframe: null }, from.state === null);
   }

@@ -38,6 +38,8 @@ export class OpenVolume extends Observable {
   otherFiles: string[] = [];
   /** It is a file of this computer, which links cannot open. */
   isLocal = false;
+  /** The names of two states, if the open volume is their difference. */
+  compared: { old: string; new: string } | null = null;
   /** null: nothing is open. */
   info: VolumeInfo | null = null;
   /** The box of a city is that of its first tile; other tiles do not change it. */

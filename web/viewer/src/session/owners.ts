@@ -6,7 +6,7 @@ import { ViewPart } from "./view_part";
 export class Owners extends ViewPart {
   /** Name of the table; empty: no table. */
   file = "";
-  private table: ArrayBuffer | null = null;
+  table: ArrayBuffer | null = null;
 
   /** Applies a table, and colours features by it at once. Rejects with an error of the library that names the line. */
   async give(table: ArrayBuffer, file: string): Promise<void> {

@@ -1,5 +1,6 @@
 /** The view of the open model: its state, its undo steps, the animation of its camera, and its scene. */
 
+import type { Ground } from "../basemap/ground";
 import { between, withProjection } from "../camera/camera";
 import type { CameraPreset, Samples, Scene, SceneCamera, SceneStyle } from "../engine";
 import { kSceneMembers } from "../generated/scene_members";
@@ -52,8 +53,12 @@ export class View extends Observable {
   readonly history = new History();
   /** Size of the picture area in device pixels. */
   size: [number, number] = [640, 360];
+  /** The step before the first one: it opens another model. null: there is none. */
+  before: { text: string; act: () => void } | null = null;
   tool: Tool | null = null;
   aim: Aim | null = null;
+  /** A picture below the model, only on the screen; null: none. */
+  ground: Ground | null = null;
   /** Measured points lie along an axis from the point before. */
   isSquare = false;
   isWalking = false;
@@ -103,7 +108,7 @@ export class View extends Observable {
     return this.selectedNow.value;
   }
 
-  /** @param isOnScreen  selected features are tinted, as nowhere else */
+  /** @param isOnScreen  selected features are tinted, colours have the legend of the page, and the ground is visible: as nowhere else */
   describe(size: [number, number], samples?: Samples, isOnScreen = false, state = this.state): Described {
     const described = sceneOf(state, this.volume.box, size, samples);
     if (this.hasSwitches && !state.custom) {
@@ -115,6 +120,11 @@ export class View extends Observable {
         const styled = tint.length ? { ...pass, styles: [...(pass.styles ?? []), ...tint] } : pass;
         return withSpaces(styled, this.volume.index, hidden, isAsked);
       });
+    }
+    if (isOnScreen) {
+      // The page has its own legend, whose text does not depend on the number of pixels.
+      if (this.hasSwitches && state.colorBy && !state.custom) described.scene.legend = false;
+      this.ground?.show(described.scene, state, this.volume);
     }
     // Tiles of a city fit the pixels. Levels of detail of the tiles would cost time and memory without benefit.
     if (this.volume.isCity) described.scene.passes = described.scene.passes!.map((pass) => ({ level: 0, ...pass }));
@@ -185,7 +195,7 @@ export class View extends Observable {
   /** Starts the view of another model, without an undo step. */
   begin(state: ViewState): void {
     this.history.clear();
-    this.aim = null;
+    this.before = this.aim = this.ground = null;
     this.state = state;
     this.redraw();
   }
@@ -198,8 +208,19 @@ export class View extends Observable {
     this.redraw();
   }
 
+  /** The names of the steps that undo() and redo() would take; null: there is none. */
+  get undoable(): string | null {
+    const { last } = this.history;
+    return last ? stepText(last) : (this.before?.text ?? null);
+  }
+  get redoable(): string | null {
+    const { next } = this.history;
+    return next && stepText(next);
+  }
+
   /** Takes the last step back, or repeats it. */
   undo(): void {
+    if (!this.history.last && this.before) return this.before.act();
     this.step("undone", this.history.last, (now) => this.history.undo(now));
   }
   redo(): void {
@@ -216,6 +237,12 @@ export class View extends Observable {
 
   redraw(): void {
     ++this.revision;
+  }
+
+  /** Lays a picture below the model. null: removes it. */
+  lay(ground: Ground | null): void {
+    this.ground = ground;
+    this.redraw();
   }
 
   resize(size: [number, number]): void {

@@ -66,7 +66,7 @@ describe("controls of scene members", () => {
   });
 
   // Those of the lens, the margin of a cutaway and the place of a plane stand for no member: they end in regions, or in
-  // passes that the library makes.
+  // passes that the library makes. Those of a comparison are its tolerance, and a share that ends in two styles.
   it("are all sliders and number fields, except those that stand for no member", () => {
     const folder = fileURLToPath(new URL("..", import.meta.url));
     const sources = readdirSync(folder, { recursive: true, encoding: "utf8" })
@@ -74,7 +74,13 @@ describe("controls of scene members", () => {
       .map((name) => ({ name, text: readFileSync(folder + name, "utf8") }));
     const numeric = sources.filter(({ text }) => /<wa-slider|<input type="(number|range)"/.test(text));
     const own = numeric.filter(({ text }) => !text.includes("rangeOfControl("));
-    expect(own.map(({ name }) => name).sort()).toEqual(["tools/focus_tool.ts", "tools/lens_tool.ts", "tools/section_tool.ts"]);
+    expect(own.map(({ name }) => name).sort()).toEqual([
+      "basemap/basemap_choice.ts",
+      "comparing/changes_panel.ts",
+      "tools/focus_tool.ts",
+      "tools/lens_tool.ts",
+      "tools/section_tool.ts",
+    ]);
   });
 });
 

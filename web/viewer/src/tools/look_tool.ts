@@ -8,6 +8,7 @@ import { kPlainMembers, type PlainMember } from "../state/member_controls";
 import { withMember } from "../state/view_state";
 import { plainControl } from "../ui/plain_control";
 import { controls, Part } from "../ui/part";
+import { toolText } from "../tool_texts";
 import { colorChoice } from "./color_choice";
 import "./sun_choice";
 
@@ -15,7 +16,15 @@ const kLooks = kSceneMembers["/look"].choices;
 const kLines = ["off", ...kSceneMembers["/passes/*/lines/*/hidden"].choices] as const;
 
 export class LookTool extends Part {
-  static override styles = [controls, css`.segments { display: flex; } h3:first-child { margin-top: 0; }`];
+  static override properties = { ...Part.properties, isBasemapShown: { state: true } };
+  declare isBasemapShown: boolean;
+
+  static override styles = [controls, css`.segments { display: flex; } svt-basemap { margin-top: 8px; } h3:first-child { margin-top: 0; }`];
+
+  constructor() {
+    super();
+    this.isBasemapShown = false;
+  }
 
   override render() {
     const { session } = this;
@@ -40,8 +49,19 @@ export class LookTool extends Part {
       </div>
       ${colorChoice(session)}
       <svt-sun-choice .session=${session}></svt-sun-choice>
+      ${session.volume.isServerOnly ? nothing : html`<button id="basemap" aria-expanded=${this.isBasemapShown} @click=${() => void this.toggleBasemap()}>${toolText("basemap")}</button>`}
+      ${this.isBasemapShown ? html`<svt-basemap .session=${session}></svt-basemap>` : nothing}
       ${kPlainMembers.map((name) => plainControl(name, picture[name.slice(1) as PlainMember], (value) => session.view.set({ picture: withMember(picture, name, value) })))}
     `;
+  }
+
+  private async toggleBasemap(): Promise<void> {
+    try {
+      await import("../basemap/basemap_choice");
+      this.isBasemapShown = !this.isBasemapShown;
+    } catch (error) {
+      this.session.messages.fail(error);
+    }
   }
 }
 customElements.define("svt-look-tool", LookTool);

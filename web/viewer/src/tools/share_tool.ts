@@ -71,7 +71,7 @@ export class ShareTool extends Part {
       </div>
       ${this.sceneText !== null ? this.scene(this.sceneText) : nothing}
       ${
-        this.session.volume.isLocal
+        this.session.volume.isLocal && !this.session.volume.compared
           ? html`<label class="check" title=${t("keepFileHint")}><input type="checkbox" id="keep-file" .checked=${this.isFileKept} @change=${(e: Event) => void this.keepFile((e.target as HTMLInputElement).checked)} />
         ${t("keepFile", { name: this.session.volume.file })}</label>`
           : nothing
@@ -124,7 +124,8 @@ export class ShareTool extends Part {
     await session.address.write();
     const isCopied = await copy(location.href);
     if (!isCopied) return session.messages.tell(t("notCopied"));
-    if (session.volume.isLocal) session.messages.tell(t("linkNeedsFile", { name: session.volume.fileNames.join(", ") }));
+    if (session.volume.isLocal)
+      session.messages.tell(t("linkNeedsFile", { name: Object.values(session.volume.compared ?? session.volume.fileNames).join(", ") }));
     else if (isOfThisMachine(location)) session.messages.tell(t("linkOnThisMachine"));
     else if (location.href.length > kLongLink) session.messages.tell(t("linkTooLong", { n: location.href.length }));
     else session.messages.tell(t("copied"));
@@ -136,7 +137,7 @@ export class ShareTool extends Part {
       files: session.volume.fileNames,
       owners: session.model.owners.file,
       // A model of the site is not on the reader's machine yet.
-      address: session.volume.isLocal ? "" : new URL(session.volume.address, location.href).href,
+      address: session.volume.isLocal || session.volume.compared ? "" : new URL(session.volume.address, location.href).href,
     });
     if (command.includes("--scene")) save(pretty(await session.view.composed(this.size)), "view.scene.json");
     session.messages.tell((await copy(command)) ? `${t("copied")}: ${command}` : command);

@@ -1,0 +1,18 @@
+/** Loads the scripts that are otherwise fetched when they are first used, so that the page then needs no connection. */
+export async function loadLate(): Promise<void> {
+  await Promise.all([
+    import("./basemap/basemap_choice"),
+    import("./canvas/section_panes"),
+    import("./panels/color_legend"),
+    import("./panels/command_palette"),
+    import("./panels/context_menu"),
+    import("./panels/details"),
+    import("./panels/help_dialog"),
+    import("./panels/object_table"),
+    import("./state/bcf"),
+    import("./tools/aim_layer"),
+    import("./tools/print_sheets"),
+    import("./tools/walk_pad"),
+  ]);
+  performance.mark("svt-all-scripts");
+}

@@ -1,0 +1,212 @@
+// The module that compares two states of a building: files in; rows, and a volume of the difference out. It is fetched
+// only for a comparison, and runs in a worker of its own.
+#include "calls.hpp"
+
+#include <svt/compare/compared.hpp>
+#include <svt/compare/difference_volume.hpp>
+#include <svt/core/diagnostics.hpp>
+#include <svt/frontend/comparison_json.hpp>
+#include <svt/pipeline/build_volume.hpp>
+#include <svt/readers/model_joiner.hpp>
+#include <svt/volume/svt_file.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace svt::web {
+namespace {
+
+using Files = std::vector<NamedBytes>;
+
+// Two states and their comparison, which refers to them.
+struct Comparing {
+    volume::SemanticVolume was, is;
+    compare::Comparison comparison;
+    compare::CompareOptions options;
+    Vec3d shift{};
+
+    [[nodiscard]] compare::Compared compared() const { return {was, is, comparison, {}, {}, shift, options}; }
+};
+std::unique_ptr<Comparing> comparing;
+
+struct Wish {
+    compare::CompareOptions options;
+    bool isAligned = false;
+    std::uint64_t memoryBytes = 0;  // limit of each volume without a given spacing; 0: as for `svt diff`
+};
+
+bool isVolume(const Files& files) {
+    return std::any_of(files.begin(), files.end(),
+                       [](const NamedBytes& file) { return volume::looksLikeSvt(file.bytes); });
+}
+
+// A state with meshes. Models are built on the sample positions of `grid`, if there is one, as by `svt diff`.
+Result<volume::SemanticVolume> readState(const Files& files, const Wish& wish, const volume::Grid* grid,
+                                         const Progress& progress, Diagnostics& findings) {
+    if (isVolume(files)) {
+        if (files.size() > 1)
+            return Error(Code::BadArgument, "a state is one volume (.svt), or one or several models; give one volume");
+        return volume::readSvt(files.front().bytes, files.front().name);
+    }
+    readers::ReadOptions reading;
+    reading.progress = &progress;
+    SVT_TRY(model, readers::readModels(files, reading, &findings));
+    pipeline::BuildOptions building;
+    building.vectors.meshes = true;
+    building.progress = &progress;
+    if (wish.memoryBytes != 0) building.memoryBytes = std::min(building.memoryBytes, wish.memoryBytes);
+    if (grid != nullptr) building.grid = *grid;
+    building.extendsGrid = grid != nullptr;
+    SVT_TRY(output, pipeline::buildVolume(*model, building, &findings));
+    return std::move(output->volume);
+}
+
+// Moves the new state to the old one; a model is built again, so that its samples coincide after the move. Returns how
+// it ended: "moved", "aligned" (no translation is necessary) or "notFound".
+Result<std::string_view> alignStates(Comparing& states, const Files& files, const Wish& wish, const Progress& progress,
+                                     Diagnostics& findings) {
+    const auto offset = compare::estimateTranslation(states.was, states.is, wish.options.tolerance);
+    if (!offset) return std::string_view("notFound");
+    if (length(*offset) <= wish.options.tolerance) return std::string_view("aligned");
+    if (!isVolume(files)) {
+        const volume::Grid& grid = states.was.grid;
+        SVT_TRY(shifted,
+                volume::Grid::fromParts(grid.dimension(), grid.spacing(), grid.origin() + *offset, grid.axes()));
+        SVT_TRY(again, readState(files, wish, &*shifted, progress, findings));
+        states.is = std::move(*again);
+    }
+    SVT_TRY(moved, compare::translated(states.is, -*offset));
+    states.is = std::move(*moved);
+    states.shift = -*offset;
+    return std::string_view("moved");
+}
+
+Result<Wish> wishOf(const Json& given) {
+    Wish wish;
+    const auto text = [&](const char* name, const char* byDefault) {
+        return given.is_object() ? given.value(name, std::string(byDefault)) : std::string(byDefault);
+    };
+    const auto number = [&](const char* name, double byDefault) {
+        return given.is_object() ? given.value(name, byDefault) : byDefault;
+    };
+    const auto match = fromName<compare::MatchBy>(text("match", "both"));
+    const auto properties = fromName<compare::Properties>(text("properties", "all"));
+    if (!match || !properties) return Error(Code::BadArgument, "match or properties of a comparison are unknown");
+    wish.options.match = *match;
+    wish.options.properties = *properties;
+    wish.options.tolerance = number("tolerance", wish.options.tolerance);
+    wish.isAligned = given.is_object() && given.value("align", false);
+    wish.memoryBytes = static_cast<std::uint64_t>(std::max(0.0, number("memory", 0)));
+    return wish;
+}
+
+Json knownOrNull(const std::optional<double>& value) { return value ? Json(compare::withoutRounding(*value)) : Json(); }
+
+std::string hexOf(Vec3f color) {
+    const auto byte = [](float share) { return std::lround(share * 255); };
+    return fmt::format("#{:02x}{:02x}{:02x}", byte(color.x), byte(color.y), byte(color.z));
+}
+
+// The Report of the page (web/viewer/src/comparing/compared.ts).
+std::string reportOf(const Comparing& states, std::string_view aligned, const Diagnostics& findings) {
+    const compare::Comparison& comparison = states.comparison;
+    const compare::ClassSums sums = compare::sumsOfComponents(states.compared());
+    Json report{{"aligned", aligned},
+                {"shift", Json::array({states.shift.x, states.shift.y, states.shift.z})},
+                {"hasMeshes", !states.was.vectors.triangles.empty() && !states.is.vectors.triangles.empty()},
+                {"overlaps", compare::overlapInSpace(states.was.grid, states.is.grid)},
+                {"isReferenceSystemUnknown", comparison.isReferenceSystemUnknown},
+                {"isOnOneLattice", comparison.isOnOneLattice},
+                {"isComplete", comparison.isComplete},
+                {"components",
+                 {{"objects", sums.objects},
+                  {"added", knownOrNull(sums.added)},
+                  {"removed", knownOrNull(sums.removed)},
+                  {"bound", knownOrNull(sums.bound)},
+                  {"withoutVolume", sums.unknown}}}};
+    for (std::size_t n = 0; n < compare::kChangeCount; ++n) {
+        const auto change = static_cast<compare::Change>(n);
+        report["colors"][std::string(nameOf(change))] = hexOf(compare::colorOfChange(change));
+    }
+    Json& list = report["findings"] = Json::array();
+    for (const Diagnostic& finding : findings.items())
+        if (finding.severity != Severity::Note) list.push_back(finding.toString());
+    return report.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+// ([[names of the old state], [names of the new state]], sizes in the same way, {match, properties, tolerance, align,
+// memory}) and the concatenated bytes of all files -> Report of
+// web/viewer/src/comparing/compared.ts
+Result<Reply> compareFiles(const Arguments& arguments) {
+    comparing.reset();
+    std::array<Files, 2> files;
+    std::size_t at = 0;
+    for (std::size_t state = 0; state < 2; ++state) {
+        const Json &names = arguments.at(0).at(state), &sizes = arguments.at(1).at(state);
+        for (std::size_t n = 0; n < names.size(); ++n) {
+            const auto size = sizes.at(n).get<std::size_t>();
+            files[state].push_back({names.at(n).get<std::string>(), arguments.bytes().subspan(at, size)});
+            at += size;
+        }
+        if (files[state].empty()) return Error(Code::BadArgument, "a state has no file");
+    }
+    SVT_TRY(wish, wishOf(arguments.at(2)));
+    const Progress progress = progressOfPage();
+    Diagnostics findings;
+    auto states = std::make_unique<Comparing>();
+    // The samples of a volume count, else those of the old state.
+    const bool isNewFirst = isVolume(files[1]) && !isVolume(files[0]);
+    SVT_TRY(one, readState(files[isNewFirst ? 1 : 0], *wish, nullptr, progress, findings));
+    SVT_TRY(other, readState(files[isNewFirst ? 0 : 1], *wish, &one->grid, progress, findings));
+    if (isNewFirst) std::swap(*one, *other);
+    states->was = std::move(*one);
+    states->is = std::move(*other);
+    std::string_view aligned;
+    if (wish->isAligned) {
+        SVT_TRY(ended, alignStates(*states, files[1], *wish, progress, findings));
+        aligned = *ended;
+    }
+    states->options = wish->options;
+    compare::CompareOptions options = wish->options;
+    options.progress = &progress;
+    SVT_TRY(comparison, compare::compareVolumes(states->was, states->is, options));
+    states->comparison = std::move(*comparison);
+    comparing = std::move(states);
+    return Reply(reportOf(*comparing, aligned, findings));
+}
+
+// () -> the bytes that `svt diff -o F.json` writes
+Result<Reply> rows(const Arguments&) { return Reply(frontend::comparisonFile(comparing->compared())); }
+
+// () -> the numbers of the rows that differ, with the largest change first
+Result<Reply> order(const Arguments&) { return Reply(Json(compare::rowsByVolume(comparing->comparison)).dump()); }
+
+// () -> the bytes that `svt diff -o F.svt` writes
+Result<Reply> difference(const Arguments&) {
+    SVT_TRY(volume, compare::makeDifferenceVolume(comparing->was, comparing->is, comparing->comparison));
+    SVT_TRY(bytes, volume::svtBytes(*volume));
+    return Reply(std::move(*bytes));
+}
+
+constexpr Call kCompareCalls[] = {
+    {"compare", compareFiles, false}, {"rows", rows}, {"order", order}, {"difference", difference}};
+
+}  // namespace
+
+Result<Reply> runCall(std::string_view name, const Arguments& arguments) {
+    for (const Call& call : kCompareCalls) {
+        if (call.name != name) continue;
+        if (call.needsVolume && !comparing)
+            return Error(Code::BadArgument, "no states are compared; compare two first");
+        return call.run(arguments);
+    }
+    return Error(Code::BadArgument, fmt::format("there is no call '{}'", name));
+}
+
+}  // namespace svt::web
