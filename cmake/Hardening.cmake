@@ -1,5 +1,5 @@
 # Hardening of what is shipped: a defect that an input reaches ends the program instead of running the input's code.
-# scripts/check_hardening.sh checks the linked program (tests Hardening.*). Costs: docs/dev/performance.md.
+# scripts/check_hardening.sh checks the linked program (tests Hardening.*).
 option(SVT_HARDENING "Harden the programs; OFF measures the cost" ON)
 if(NOT SVT_HARDENING OR EMSCRIPTEN OR CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   return()  # WebAssembly has its own sandbox; sanitizers check more

@@ -188,14 +188,14 @@ private:
 
 // The paper with a strip for the revisions, if there are any.
 Result<SheetPaper> paperFor(const SheetContent& content, const SheetOptions& options) {
-    constexpr double kFromFrame = 8, kBelow = 1;
+    constexpr double kFromFrame = 8, kBelowList = 1;
     SVT_TRY(paper, paperOf(options));
     if (!kDrawsRevisions) return paper;
     const auto numbered = std::count_if(content.revisions.begin(), content.revisions.end(),
                                         [](const drawing::Revision& revision) { return revision.number != 0; });
     const RevisionListSize size =
         revisionListSize(std::size_t(numbered), paper->right - paper->left - 2 * kFromFrame, SheetPaper::kRevisionRows);
-    if (size.rows > 0) paper->revisions = size.height + kBelow;
+    if (size.rows > 0) paper->revisions = size.height + kBelowList;
     return paper;
 }
 
