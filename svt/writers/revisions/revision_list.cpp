@@ -61,10 +61,9 @@ RevisionList makeRevisionList(std::span<const drawing::Revision> revisions, doub
     const auto addRow = [&](double x, double y, const std::vector<std::string>& texts) {
         const double ends[] = {x + kNumberWidth, x + kNumberWidth + kChangeWidth, 0, x + columnWidth - kVolumeWidth - 1,
                                x + columnWidth - 1};
-        const auto fitted = [](const std::string& text, double most) { return fittedText(text, most); };
         list.texts.push_back({x + 1, y, texts[0]});
-        list.texts.push_back({ends[0], y, fitted(texts[1], kChangeWidth - 1)});
-        list.texts.push_back({ends[1], y, fitted(texts[2], objectWidth - 1)});
+        list.texts.push_back({ends[0], y, fittedText(texts[1], kChangeWidth - 1)});
+        list.texts.push_back({ends[1], y, fittedText(texts[2], objectWidth - 1)});
         list.texts.push_back({ends[3], y, texts[3], true});
         list.texts.push_back({ends[4], y, texts[4], true});
     };
@@ -73,8 +72,9 @@ RevisionList makeRevisionList(std::span<const drawing::Revision> revisions, doub
     const std::size_t shown = revisions.size() <= places ? revisions.size() : places - 1;
     const double first = top + RevisionList::kTitle;
     for (std::size_t n = 0; n < std::min(places, shown + 1); ++n) {
-        const double x = left + double(n / size.rows) * (columnWidth + RevisionList::kBetween);
-        const double y = first + RevisionList::kRow * double(n % size.rows + 1);
+        const std::size_t column = n / size.rows, row = n % size.rows;
+        const double x = left + double(column) * (columnWidth + RevisionList::kBetween);
+        const double y = first + RevisionList::kRow * double(row + 1);
         if (n == shown && shown == revisions.size()) break;
         if (n % size.rows == 0) {
             list.rules.push_back({x, x + columnWidth, first - 1});

@@ -219,6 +219,7 @@ describe("comparing", () => {
   it("works by keyboard alone", async () => {
     await open();
     await visit.page.keyboard.press("Control+k");
+    await visit.page.locator("svt-palette input:focus").waitFor();
     await visit.page.keyboard.type("compare with");
     await visit.page.keyboard.press("Enter");
     await panel().locator("#compare-is").waitFor();

@@ -60,9 +60,9 @@ function loadComponents(): void {
 void until(() => session.picture.quality === "fine" && !session.volume.isCity).then(() =>
   session.volume.engine?.prepare().catch(() => undefined),
 );
-/** Loads the other scripts, so that the page then needs no connection. */
+/** Loads the other scripts, so that the page then needs no connection. A page in one text contains them (svtModuleOf). */
 void until(() => session.picture.quality === "fine").then(async () => {
-  if (!(navigator as { connection?: { saveData?: boolean } }).connection?.saveData)
+  if (!("svtModuleOf" in self) && !(navigator as { connection?: { saveData?: boolean } }).connection?.saveData)
     await import("./late").then(({ loadLate }) => loadLate()).catch(() => undefined);
 });
 
