@@ -58,7 +58,7 @@ Result<std::vector<drawing::SectionDrawing>> drawBefore(const drawing::SheetSet&
     std::vector<drawing::SheetView> views;
     for (const DrawnView& view : content.views) views.push_back(view.view);
     const auto draw = [&](std::size_t n, int ownThreads) -> Result<drawing::SectionDrawing> {
-        std::vector<std::string> ignored;  // what a query finds in the new state only
+        std::vector<std::string> ignored;  // results of queries that only the new state has
         drawing::SectionOptions options;
         options.hide = set.hide;
         options.smallestArea = 1e-4;

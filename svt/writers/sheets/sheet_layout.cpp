@@ -199,7 +199,7 @@ Result<SheetPaper> paperFor(const SheetContent& content, const SheetOptions& opt
     return paper;
 }
 
-// Whether the list of revisions takes so much space that the views need a smaller scale, or do not fit at theirs.
+// Whether the views need a smaller scale beside the list of revisions, or do not fit at theirs.
 bool makesSmaller(const SheetPaper& paper, const std::vector<ViewSize>& sizes, const SheetContent& content,
                   double scale) {
     SheetPaper without = paper;

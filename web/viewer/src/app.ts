@@ -71,7 +71,7 @@ export class App extends Part implements ActionHost {
   /** The panel of a comparison is in the place of the table. */
   declare isComparing: boolean;
   declare isDropping: boolean;
-  /** What dropped files are for: they can also be compared. null: only to open them. */
+  /** The purpose of dropped files, which can also be compared. null: only to open them. */
   declare dropAt: "open" | "compare" | null;
   /** The tool that the Tab key reaches. */
   declare dockAt: number;
@@ -538,7 +538,7 @@ export class App extends Part implements ActionHost {
     });
   }
 
-  /** Closes the panel. What the picture shows stays. */
+  /** Closes the panel. The picture stays. */
   private endComparing(): void {
     this.isComparing = false;
     void this.updateComplete.then(() => (this.renderRoot.querySelector<HTMLElement>("#compare:not([hidden])") ?? this.picture)?.focus());

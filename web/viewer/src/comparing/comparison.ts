@@ -23,7 +23,7 @@ export interface State {
   files: Source;
 }
 
-/** What the page showed before the comparison. */
+/** The state of the page before the comparison. */
 interface Before {
   name: string;
   title: string;

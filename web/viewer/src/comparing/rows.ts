@@ -18,7 +18,7 @@ export function rowsWith({ rows, order }: Pick<Compared, "rows" | "order">, kind
     });
 }
 
-/** Kinds of the rows that differ, with their number; rows that are the same but for their properties have `same`. */
+/** Kinds of the rows that differ, with their number; rows that differ only by properties have `same`. */
 export function kindsOf({ rows, order }: Pick<Compared, "rows" | "order">): Map<Change, number> {
   const kinds = new Map<Change, number>();
   for (const n of order) kinds.set(rows[n]!.change, (kinds.get(rows[n]!.change) ?? 0) + 1);

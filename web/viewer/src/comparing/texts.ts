@@ -137,7 +137,7 @@ export function compareText(key: CompareTextKey, values: Record<string, string |
 
 export const changeText = (change: Change): string => compareText(`change_${change}`);
 
-/** The name of a stage of the comparison; null: it has none here. */
+/** The name of a stage of the comparison; null: unknown here. */
 export function compareStage(stage: string): string | null {
   return stage === "match" || stage === "compare" ? compareText(`stage_${stage}`) : null;
 }
