@@ -310,7 +310,8 @@ void bindVolumes(py::module_& module) {
         .def_property_readonly("crs", [](const SharedVolume& v) { return textOf(v->volume().crsName); })
         .def_property_readonly("name", [](const SharedVolume& v) { return textOf(v->volume().modelName); })
         .def_property_readonly("source", [](const SharedVolume& v) { return textOf(v->volume().source); })
-        .def_property_readonly("path", [](const SharedVolume& v) { return v->path(); })
+        .def_property_readonly(
+            "path", [](const SharedVolume& v) { return v->path().empty() ? std::nullopt : std::optional(v->path()); })
         .def_property_readonly("findings", [](const SharedVolume& v) { return toPython(v->findings()); })
         .def_property_readonly("scalar_bits", [](const SharedVolume& v) { return v->volume().labels.scalarBits(); })
         .def_property_readonly("scalar_count", [](const SharedVolume& v) { return v->volume().labels.scalarCount(); })

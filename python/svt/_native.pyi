@@ -1,4 +1,5 @@
 """Internal functions of the library for the package svt. Import svt instead."""
+import os
 from typing import Any, Optional
 
 import numpy as np
@@ -124,7 +125,7 @@ class Volume:
     @property
     def source(self) -> str: ...
     @property
-    def path(self) -> str: ...
+    def path(self) -> Optional[os.PathLike[str]]: ...
     @property
     def findings(self) -> list[Finding]: ...
     @property

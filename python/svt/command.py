@@ -3,8 +3,11 @@ from __future__ import annotations
 
 import importlib.metadata
 import os
+import re
 import shutil
+import subprocess
 import sys
+from typing import Any, Mapping, Sequence
 
 from .errors import Error, Place
 
@@ -38,6 +41,50 @@ def find_command() -> str:
             Place(),
         )
     return command
+
+
+def arguments_of(options: Mapping[str, Any], own: set[str], caller: str) -> list[str]:
+    """Keywords as options of the command: spacing=0.2 is --spacing=0.2. `own` are those that the caller sets."""
+    arguments = []
+    for name, value in options.items():
+        if name in own:
+            raise TypeError(f"{caller} has no keyword '{name}'")
+        option = "--" + name.replace("_", "-")
+        if value is None or value is False:
+            continue
+        if value is True:
+            arguments.append(option)
+        elif isinstance(value, (str, os.PathLike, int, float)):
+            arguments.append(f"{option}={os.fspath(value) if isinstance(value, os.PathLike) else value}")
+        else:
+            arguments.append(f"{option}={','.join(str(part) for part in value)}")
+    return arguments
+
+
+def _error_of(done: subprocess.CompletedProcess[bytes], caller: str) -> Error:
+    """The error that the command printed."""
+    said = done.stderr.decode(errors="replace").strip().splitlines() or [f"{caller} ended without a message"]
+    for line in said:
+        found = re.fullmatch(r"(?:svt: )?error (E\d+) (\w+): (.*)", line)
+        if found:
+            code, name, message = found.groups()
+            return Error(code, name, message, Place())
+    return Error("E904", "BadArgument", said[0].removeprefix("svt: "), Place())
+
+
+def run_command(arguments: Sequence[str], accepted: Sequence[int] = (0,)) -> bytes:
+    """Runs the command and returns its standard output.
+
+    Raises svt.Error with the error that the command printed for other exit codes, E101 if it cannot be started.
+    """
+    command = find_command()
+    try:
+        done = subprocess.run([command, *arguments], stdin=subprocess.DEVNULL, capture_output=True)
+    except OSError as error:
+        raise Error("E101", "CannotOpen", f"{error.strerror}; set SVT_COMMAND", Place(command)) from None
+    if done.returncode not in accepted:
+        raise _error_of(done, f"svt {arguments[0]}")
+    return done.stdout
 
 
 def main() -> None:

@@ -3,13 +3,10 @@ from __future__ import annotations
 
 import json
 import os
-import re
-import subprocess
 import tempfile
 from typing import Any, Mapping, Sequence
 
-from .command import find_command
-from .errors import Error, Place
+from .command import arguments_of, run_command
 from .model import PathLike
 from .optional import load
 from .volume import Volume
@@ -89,35 +86,6 @@ def _differs(row: Mapping[str, Any]) -> bool:
     return row["change"] != "same" or bool(row["attributes"]) or any(name != "id" for name in row["properties"])
 
 
-def arguments_of(options: Mapping[str, Any], own: set[str], caller: str) -> list[str]:
-    """Keywords as options of the command: spacing=0.2 is --spacing=0.2. `own` are those that the caller sets."""
-    arguments = []
-    for name, value in options.items():
-        if name in own:
-            raise TypeError(f"{caller} has no keyword '{name}'")
-        option = "--" + name.replace("_", "-")
-        if value is None or value is False:
-            continue
-        if value is True:
-            arguments.append(option)
-        elif isinstance(value, (str, os.PathLike, int, float)):
-            arguments.append(f"{option}={os.fspath(value) if isinstance(value, os.PathLike) else value}")
-        else:
-            arguments.append(f"{option}={','.join(str(part) for part in value)}")
-    return arguments
-
-
-def error_of(done: subprocess.CompletedProcess[bytes], caller: str) -> Error:
-    """The error that the command printed."""
-    said = done.stderr.decode(errors="replace").strip().splitlines() or [f"{caller} ended without a message"]
-    for line in said:
-        found = re.fullmatch(r"(?:svt: )?error (E\d+) (\w+): (.*)", line)
-        if found:
-            code, name, message = found.groups()
-            return Error(code, name, message, Place())
-    return Error("E904", "BadArgument", said[0].removeprefix("svt: "), Place())
-
-
 def diff(
     old: Volume | PathLike,
     new: Volume | PathLike,
@@ -145,7 +113,6 @@ def diff(
         If a state cannot be read, the states cannot be compared, an option is wrong, or the command is missing.
     """
     outputs = [output] if isinstance(output, (str, os.PathLike)) else list(output)
-    command = find_command()
     with tempfile.TemporaryDirectory(prefix="svt-diff-") as folder:
         files = []
         for name, state in (("old", old), ("new", new)):
@@ -155,15 +122,10 @@ def diff(
             else:
                 files.append(os.path.abspath(os.fspath(state)))
         rows = os.path.join(folder, "rows.json")
-        arguments = [command, "diff", *files, "--quiet", *arguments_of(options, _OWN, "svt.diff()"), "--output", rows]
+        arguments = ["diff", *files, "--quiet", *arguments_of(options, _OWN, "svt.diff()"), "--output", rows]
         for each in outputs:
             arguments += ["--output", os.path.abspath(os.fspath(each))]
-        try:
-            done = subprocess.run(arguments, stdin=subprocess.DEVNULL, capture_output=True)
-        except OSError as error:
-            raise Error("E101", "CannotOpen", f"{error.strerror}; set SVT_COMMAND", Place(command)) from None
-        if done.returncode not in (_EQUAL, _DIFFERENT):
-            raise error_of(done, "svt diff")
+        run_command(arguments, (_EQUAL, _DIFFERENT))
         with open(rows, encoding="utf-8") as file:
             read = json.load(file)
     return Comparison(read["rows"], read["summary"])

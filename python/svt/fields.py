@@ -192,10 +192,14 @@ class Fields(Mapping):
 
     @property
     def _path(self) -> str:
-        return os.fspath(self._volume._native.path)
+        """The file of the volume. Raises ValueError for a volume in memory."""
+        path = self._volume._native.path
+        if path is None:
+            raise ValueError("the volume has no file; save it as .svt, open that file, and use its fields")
+        return os.fspath(path)
 
     def _heads(self) -> dict[str, dict[str, Any]]:
-        return _native.list_fields(self._path) if self._path not in ("", ".") else {}
+        return {} if self._volume._native.path is None else _native.list_fields(self._path)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._heads())
@@ -270,8 +274,7 @@ class Fields(Mapping):
         output
             The `.svt` to write; default: the file of the volume. Another file gets all its fields, and the new one.
         """
-        if self._path in ("", "."):
-            raise ValueError("the volume has no file; save it as .svt, open that file, and add the field there")
+        path = self._path
         head: dict[str, Any] = {
             "name": name,
             "kind": kind,
@@ -293,8 +296,8 @@ class Fields(Mapping):
         squeezed = tuple(n for i, n in enumerate(shape) if not (i == 0 and n == 1))
         if array.shape not in (shape, squeezed):
             raise ValueError(f"values: expected an array of shape {shape}, found {array.shape}")
-        target = self._path if output is None else os.fspath(output)
-        _native.add_field(self._volume._native, self._path, target, head, array.reshape(shape), progress)
+        target = path if output is None else os.fspath(output)
+        _native.add_field(self._volume._native, path, target, head, array.reshape(shape), progress)
         written = _native.read_field(self._volume._native, target, name, progress)
         return Field(self._volume, written)
 

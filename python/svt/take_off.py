@@ -3,13 +3,10 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
 import tempfile
 from typing import Any, Mapping, Sequence
 
-from .command import find_command
-from .comparison import arguments_of, error_of
-from .errors import Error, Place
+from .command import arguments_of, run_command
 from .model import PathLike
 from .optional import load
 from .volume import Volume
@@ -112,23 +109,16 @@ class TakeOff:
 
 def _report(model: Volume | PathLike, arguments: Sequence[str], outputs: Sequence[PathLike] = ()) -> Any:
     """The report of `svt quantities --json`."""
-    command = find_command()
     with tempfile.TemporaryDirectory(prefix="svt-quantities-") as folder:
         if isinstance(model, Volume):
             file = os.path.join(folder, "model.svt")
             model.save(file)
         else:
             file = os.path.abspath(os.fspath(model))
-        words = [command, "quantities", file, "--quiet", "--json", *arguments]
+        words = ["quantities", file, "--quiet", "--json", *arguments]
         for output in outputs:
             words += ["--output", os.path.abspath(os.fspath(output))]
-        try:
-            done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True)
-        except OSError as error:
-            raise Error("E101", "CannotOpen", f"{error.strerror}; set SVT_COMMAND", Place(command)) from None
-    if done.returncode != 0:
-        raise error_of(done, "svt quantities")
-    return json.loads(done.stdout)
+        return json.loads(run_command(words))
 
 
 def take_off(

@@ -135,6 +135,8 @@ class FieldsOfVolumes(unittest.TestCase):
             v.fields["warm"]
         with self.assertRaisesRegex(ValueError, "has no file; save it as .svt"):
             house().fields.add("warm", np.zeros(house().shape), unit="1")
+        with self.assertRaisesRegex(ValueError, "has no file; save it as .svt"):
+            house().fields.remove("warm")
         self.assertEqual(before, file_bytes())
         self.assertEqual(len(house().fields), 0)
 

@@ -78,7 +78,7 @@ struct SheetContent {
     std::optional<drawing::OpeningSchedule> openings{};  ///< plans have its marks
     /// Plans have their lines of travel; without a value, they are found for each plan.
     std::optional<std::vector<drawing::StairFlight>> stairs{};
-    /// The old state by the planes of the views, without dimensions; empty if there is no old state.
+    /// Drawings of the old state by the planes of the views, without dimensions. Empty without an old state.
     std::vector<drawing::SectionDrawing> before{};
     std::vector<drawing::Revision> revisions{};  ///< of all views, see compare::markRevisions(); a list on each sheet
     bool hasGrids = false;  ///< plans have the names of the axes of grids outside of their dimensions

@@ -94,4 +94,14 @@ struct Call {
     bool needsVolume = true;
 };
 
+/// The call of a name; null if `calls` lacks it.
+[[nodiscard]] inline const Call* findCall(std::span<const Call> calls, std::string_view name) noexcept {
+    for (const Call& call : calls)
+        if (call.name == name) return &call;
+    return nullptr;
+}
+
+/// The error of a name that no call has.
+[[nodiscard]] Error unknownCall(std::string_view name);
+
 }  // namespace svt::web

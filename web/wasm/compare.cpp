@@ -6,16 +6,15 @@
 #include <svt/compare/difference_volume.hpp>
 #include <svt/core/diagnostics.hpp>
 #include <svt/frontend/comparison_json.hpp>
+#include <svt/image/color_text.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/readers/model_joiner.hpp>
 #include <svt/volume/svt_file.hpp>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -108,11 +107,6 @@ Result<Wish> wishOf(const Json& given) {
 
 Json knownOrNull(const std::optional<double>& value) { return value ? Json(compare::withoutRounding(*value)) : Json(); }
 
-std::string hexOf(Vec3f color) {
-    const auto byte = [](float share) { return std::lround(share * 255); };
-    return fmt::format("#{:02x}{:02x}{:02x}", byte(color.x), byte(color.y), byte(color.z));
-}
-
 // The Report of the page (web/viewer/src/comparing/compared.ts).
 std::string reportOf(const Comparing& states, std::string_view aligned, const Diagnostics& findings) {
     const compare::Comparison& comparison = states.comparison;
@@ -132,7 +126,7 @@ std::string reportOf(const Comparing& states, std::string_view aligned, const Di
                   {"withoutVolume", sums.unknown}}}};
     for (std::size_t n = 0; n < compare::kChangeCount; ++n) {
         const auto change = static_cast<compare::Change>(n);
-        report["colors"][std::string(nameOf(change))] = hexOf(compare::colorOfChange(change));
+        report["colors"][std::string(nameOf(change))] = image::colorText(compare::colorOfChange(change));
     }
     Json& list = report["findings"] = Json::array();
     for (const Diagnostic& finding : findings.items())
@@ -200,13 +194,10 @@ constexpr Call kCompareCalls[] = {
 }  // namespace
 
 Result<Reply> runCall(std::string_view name, const Arguments& arguments) {
-    for (const Call& call : kCompareCalls) {
-        if (call.name != name) continue;
-        if (call.needsVolume && !comparing)
-            return Error(Code::BadArgument, "no states are compared; compare two first");
-        return call.run(arguments);
-    }
-    return Error(Code::BadArgument, fmt::format("there is no call '{}'", name));
+    const Call* const call = findCall(kCompareCalls, name);
+    if (call == nullptr) return unknownCall(name);
+    if (call->needsVolume && !comparing) return Error(Code::BadArgument, "no states are compared; compare two first");
+    return call->run(arguments);
 }
 
 }  // namespace svt::web

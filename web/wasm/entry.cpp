@@ -43,6 +43,10 @@ std::string errorOf(const Error& error) {
 
 }  // namespace
 
+Error unknownCall(std::string_view name) {
+    return {Code::BadArgument, "this module lacks the call '" + std::string(name) + "'"};
+}
+
 Progress progressOfPage() {
     return {.report = [](std::string_view stage, double done) {
         svt_progress(stage.data(), static_cast<int>(stage.size()), done);

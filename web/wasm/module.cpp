@@ -11,6 +11,7 @@
 #include <svt/crs/globe.hpp>
 #include <svt/illustrate/color_by.hpp>
 #include <svt/illustrate/view.hpp>
+#include <svt/image/color_text.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -111,12 +112,6 @@ Result<Reply> places(const Arguments& arguments) {
     return Reply(list.dump());
 }
 
-// "#rrggbb"
-std::string cssColor(Vec3f color) {
-    const auto byte = [](float c) { return static_cast<int>(std::clamp(c, 0.0f, 1.0f) * 255 + 0.5f); };
-    return fmt::format("#{:06x}", byte(color.x) << 16 | byte(color.y) << 8 | byte(color.z));
-}
-
 // (scene) -> the meaning of the colours of its colorBy: {title, isRamp, low, high, ramp: [color],
 // entries: [{text, count, color}], missing, missingColor}; the colours of a ramp are at equal steps
 Result<Reply> legend(const Arguments& arguments) {
@@ -126,10 +121,11 @@ Result<Reply> legend(const Arguments& arguments) {
     SVT_DO(illustrate::makeFrameSpec(*scene, session->volume(), rows, &scale));
     Json entries = Json::array(), ramp = Json::array();
     for (const auto& entry : scale.entries)
-        entries.push_back({{"text", entry.text}, {"count", entry.count}, {"color", cssColor(entry.color)}});
+        entries.push_back({{"text", entry.text}, {"count", entry.count}, {"color", image::colorText(entry.color)}});
     constexpr int kSteps = 16;
     for (int n = 0; scale.isRamp && n <= kSteps; ++n)
-        ramp.push_back(cssColor(illustrate::rampColor(scale, scale.low + (scale.high - scale.low) * n / kSteps)));
+        ramp.push_back(
+            image::colorText(illustrate::rampColor(scale, scale.low + (scale.high - scale.low) * n / kSteps)));
     return Reply(Json{{"title", scale.title},
                       {"isRamp", scale.isRamp},
                       {"low", scale.low},
@@ -137,7 +133,7 @@ Result<Reply> legend(const Arguments& arguments) {
                       {"ramp", std::move(ramp)},
                       {"entries", std::move(entries)},
                       {"missing", scale.missing},
-                      {"missingColor", cssColor(illustrate::missingColor())}}
+                      {"missingColor", image::colorText(illustrate::missingColor())}}
                      .dump());
 }
 
@@ -340,16 +336,14 @@ Session& openSession() noexcept { return *session; }
 
 Result<Reply> runCall(std::string_view name, const Arguments& arguments) {
     for (const std::span<const Call> calls : {std::span<const Call>(kCalls), wholeCalls()}) {
-        const auto found =
-            std::find_if(calls.begin(), calls.end(), [&](const Call& call) { return call.name == name; });
-        if (found == calls.end()) continue;
-        const Call& call = *found;
-        if (call.name.starts_with("city") && call.name != "cityLook" && !cityPage)
+        const Call* const call = findCall(calls, name);
+        if (call == nullptr) continue;
+        if (call->name.starts_with("city") && call->name != "cityLook" && !cityPage)
             return Error(Code::BadArgument, "no city is open; open one first");
-        if (call.needsVolume && !session) return Error(Code::BadArgument, "no volume is open; open one first");
-        return call.run(arguments);
+        if (call->needsVolume && !session) return Error(Code::BadArgument, "no volume is open; open one first");
+        return call->run(arguments);
     }
-    return Error(Code::BadArgument, fmt::format("there is no call '{}'", name));
+    return unknownCall(name);
 }
 
 }  // namespace svt::web

@@ -186,7 +186,8 @@ Result<void> markSectionRevisions(const SectionArguments& arguments, const compa
     SVT_TRY(before, drawing::drawSection(states.was, drawing.plane, options));
     drawing::SectionDrawing* const drawings[] = {&drawing};
     const std::vector<drawing::Revision> revisions = compare::markRevisions(
-        {states.was, volume, states.comparison, states.tolerance}, std::span(&*before, 1), drawings);
+        {.was = states.was, .is = volume, .comparison = states.comparison, .options = {.tolerance = states.tolerance}},
+        std::span(&*before, 1), drawings);
     note(fmt::format("the drawing shows the new state with {} of {} revisions", drawing.revisions.size(),
                      revisions.size()));
     for (const auto& paths : {arguments.outputs, arguments.tables})

@@ -202,7 +202,9 @@ Result<Table> valueTable(const fields::Field& field, const volume::SemanticVolum
     for (const std::size_t time : times)
         for (std::size_t place = 0; place < places; ++place) {
             const auto valueAt = [&](std::size_t c) { return field.values[(time * components + c) * places + place]; };
-            if (std::isnan(valueAt(0))) continue;
+            bool isKnown = false;
+            for (std::size_t c = 0; c < components; ++c) isKnown = isKnown || !std::isnan(valueAt(c));
+            if (!isKnown) continue;
             if (table.rows.size() == kMostValueRows)
                 return Error(
                     Code::InputTooBig,
@@ -211,7 +213,7 @@ Result<Table> valueTable(const fields::Field& field, const volume::SemanticVolum
                                 head.name, kMostValueRows));
             Row row = placeCells(head, volume, place);
             row.emplace_back(head.times[time]);
-            for (std::size_t c = 0; c < components; ++c) row.emplace_back(valueAt(c));
+            for (std::size_t c = 0; c < components; ++c) row.push_back(cellOf(valueAt(c)));
             table.rows.push_back(std::move(row));
         }
     return table;

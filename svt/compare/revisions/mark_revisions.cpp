@@ -43,7 +43,7 @@ bool followsOthers(const std::string& className) {
 
 class Marker {
 public:
-    explicit Marker(const RevisedStates& states) : states_(states) {
+    explicit Marker(const Compared& states) : states_(states) {
         rowOfWas_.assign(states.was.labels.labels.size(), volume::kNoLabel);
         rowOfIs_.assign(states.is.labels.labels.size(), volume::kNoLabel);
         for (std::uint32_t r = 0; r < states.comparison.rows.size(); ++r) {
@@ -117,8 +117,9 @@ private:
         const auto now = linesOf(after, rowOfIs_, [](PlanePoint p) { return p; });
         std::vector<drawing::RevisionLines> changed(rows_.size());
         for (std::size_t r = 0; r < rows_.size(); ++r) {
-            for (const Line& line : now[r]) addMissingParts(line, old[r], states_.tolerance, changed[r].added);
-            for (const Line& line : old[r]) addMissingParts(line, now[r], states_.tolerance, changed[r].removed);
+            for (const Line& line : now[r]) addMissingParts(line, old[r], states_.options.tolerance, changed[r].added);
+            for (const Line& line : old[r])
+                addMissingParts(line, now[r], states_.options.tolerance, changed[r].removed);
         }
         return changed;
     }
@@ -178,7 +179,7 @@ private:
         return revisions;
     }
 
-    const RevisedStates& states_;
+    const Compared& states_;
     std::vector<std::uint32_t> rows_;                // numbers of Comparison::rows
     std::vector<std::uint32_t> rowOfWas_, rowOfIs_;  // by label: index into rows_
     std::vector<char> follows_;                      // by index into rows_
@@ -187,7 +188,7 @@ private:
 
 }  // namespace
 
-std::vector<drawing::Revision> markRevisions(const RevisedStates& states, std::span<const SectionDrawing> before,
+std::vector<drawing::Revision> markRevisions(const Compared& states, std::span<const SectionDrawing> before,
                                              std::span<SectionDrawing* const> drawings) {
     return Marker(states).run(before, drawings);
 }

@@ -635,7 +635,7 @@ describe("a basemap", () => {
     await visit.message(/may not fetch pictures from https:\/\/tile\.example\.org.*--allow-images/);
     await visit.page.fill("#basemap-address", "missing.png");
     await visit.page.click("#basemap-show");
-    await visit.message(/There is no picture at this address/);
+    await visit.message(/does not have a picture at this address/);
     await visit.page.fill("#basemap-address", "https://example.org/{z}/{x}");
     await visit.page.click("#basemap-show");
     await eventually(async () => assert.ok(await inPage("s.messages.message")));

@@ -69,14 +69,14 @@ const kBasemapTexts = {
     "Das TIFF ist mit Verfahren {n} gepackt. Umwandeln, zum Beispiel mit gdal_translate -co COMPRESS=DEFLATE.",
   ],
   badAddress: [
-    "'{address}' is no address of tiles, such as https://example.org/{z}/{x}/{y}.png, and no address of a picture.",
-    "'{address}' ist keine Adresse von Kacheln, etwa https://example.org/{z}/{x}/{y}.png, und keine eines Bilds.",
+    "'{address}' cannot be used. Give the address of tiles, such as https://example.org/{z}/{x}/{y}.png, or of a picture.",
+    "'{address}' ist nicht verwendbar. Die Adresse von Kacheln angeben, etwa https://example.org/{z}/{x}/{y}.png, oder die eines Bilds.",
   ],
   policy: [
     "This page may not fetch pictures from {origin}. Start it by svt serve --allow-images {origin}, or save the picture and choose the file.",
     "Diese Seite darf keine Bilder von {origin} holen. Sie mit svt serve --allow-images {origin} starten oder das Bild speichern und die Datei wählen.",
   ],
-  noAnswer: ["There is no picture at this address of {origin}.", "Unter dieser Adresse von {origin} ist kein Bild."],
+  noAnswer: ["{origin} does not have a picture at this address.", "{origin} hat unter dieser Adresse kein Bild."],
   noAnswerElsewhere: [
     "No picture came from {origin}. The address may be wrong, the server may not answer, or it may not let other sites show its pictures (CORS).",
     "Von {origin} kam kein Bild. Die Adresse kann falsch sein, der Server nicht antworten oder anderen Seiten seine Bilder nicht erlauben (CORS).",

@@ -118,14 +118,14 @@ const kCompareTexts = {
     "Ein Volumen hat keine Netze, also entscheiden Voxel. Änderungen unter Voxelgröße können fehlen. Genaue Werte brauchen Volumen mit --vectors meshes.",
   ],
   noteLattice: [
-    "The two volumes have different sample positions. Objects without closed meshes have no volumes, and there is no picture of both states. Give one state as a model.",
+    "The two volumes have different sample positions. The volumes of objects without closed meshes are unknown, and the page cannot draw both states. Give one state as a model.",
     "Die beiden Volumen haben verschiedene Abtastpunkte. Objekte ohne geschlossene Netze haben keine Volumen, und es gibt kein Bild beider Stände. Geben Sie einen Stand als Modell.",
   ],
   noteIncomplete: [
     "Some pairs of objects have too many faces for exact volumes. Their volumes come from voxels.",
     "Einige Paare von Objekten haben zu viele Flächen für genaue Volumen. Deren Volumen kommen aus Voxeln.",
   ],
-  noteNoPicture: ["There is no picture of both states: {reason}", "Es gibt kein Bild beider Stände: {reason}"],
+  noteNoPicture: ["The page cannot draw both states: {reason}", "Es gibt kein Bild beider Stände: {reason}"],
   noteFindings: ["{n} findings in the models", "{n} Befunde in den Modellen"],
 } as const satisfies Record<string, readonly [string, string]>;
 
