@@ -524,7 +524,8 @@ export function help(member: SceneMember): string {
 
 /** Formats numbers in the chosen language. */
 export function number(value: number, digits: number): string {
-  return value.toLocaleString(language(), { minimumFractionDigits: digits, maximumFractionDigits: digits });
+  const shown = Math.abs(value) < 0.5 * 10 ** -digits ? 0 : value; // not "-0.0"
+  return shown.toLocaleString(language(), { minimumFractionDigits: digits, maximumFractionDigits: digits });
 }
 /** A share as whole per cent, rounded down: 100% is all of it. */
 export function percentText(share: number): string {

@@ -45,7 +45,7 @@ const kCompareTexts = {
   compareBack: ["Back to {name}", "Zurück zu {name}"],
   compareBackTo: ["Comparison", "Vergleich"],
   compareSaveJson: ["Save the rows as JSON", "Zeilen als JSON speichern"],
-  compareSaveSvt: ["Save the volume of the difference (SVT)", "Volumen des Unterschieds speichern (SVT)"],
+  compareSaveSvt: ["Save the difference volume as SVT", "Differenzvolumen als SVT speichern"],
 
   compareShown: ["Shown state", "Gezeigter Stand"],
   shownOld: ["Old", "Alt"],
