@@ -45,6 +45,13 @@ def share_off(known, row):
     return max(abs(a - b) for a, b in pairs) / total
 
 
+def is_turn(known, found):
+    """Whether the angles agree. A shape that half a turn makes of itself has a quarter turn in both senses."""
+    if known is None or found is None:
+        return known is None and found is None
+    return abs(found - known) < 0.01 or (known < 0 and abs(found + known) < 0.01)
+
+
 def compare_rows(answer, rows):
     """Yields (edit, problem or None, error of the volume as a share), and then ("false", row, 0) for false rows."""
     # Edits change the boundary surfaces of rooms, too. The answers do not list them; only a move is certainly false.
@@ -63,8 +70,12 @@ def compare_rows(answer, rows):
             problem = f"{row['change']} instead of {known['change']}"
         elif share > LARGEST_SHARE:
             problem = f"volume off by {100 * share:.3f} %"
+        elif (known["vector"] is None) != (row["vector"] is None):
+            problem = f"vector {row['vector']} instead of {known['vector']}"
         elif known["vector"] and max(abs(a - b) for a, b in zip(known["vector"], row["vector"])) > LARGEST_VECTOR_ERROR:
             problem = f"vector {row['vector']} instead of {known['vector']}"
+        elif not is_turn(known["rotation"], row["rotation"]):
+            problem = f"rotation {row['rotation']} instead of {known['rotation']}"
         elif known["properties"].get("name") != row["properties"].get("name"):
             problem = "name missed"
         elif ("class" in known["properties"]) != ("class" in row["properties"]):

@@ -46,8 +46,8 @@ class Comparison:
     def to_pandas(self, all: bool = False) -> Any:
         """The rows as a pandas.DataFrame.
 
-        Columns: change, class_name, old, new (lists of ids), name, storey, dx, dy, dz, added, removed, bound, distance
-        (metres, m3; NaN: unknown), exact, properties and attributes (dicts of the old and the new value).
+        Columns: change, class_name, old, new (lists of ids), name, storey, dx, dy, dz, rotation, added, removed, bound,
+        distance (metres, degrees, m3; NaN: unknown), exact, properties and attributes (dicts of the old and the new value).
 
         Parameters
         ----------
@@ -61,7 +61,7 @@ class Comparison:
             "dx": [vector[0] for vector in vectors],
             "dy": [vector[1] for vector in vectors],
             "dz": [vector[2] for vector in vectors],
-            **{key: [row[key] for row in rows] for key in ("added", "removed", "bound", "distance")},
+            **{key: [row[key] for row in rows] for key in ("rotation", "added", "removed", "bound", "distance")},
         }
         return pandas.DataFrame(
             {

@@ -8,6 +8,7 @@
 #include <svt/core/result.hpp>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace svt::city {
@@ -17,12 +18,17 @@ struct ChangedTiles {
     std::vector<IndexEntry> was, is;
 };
 
+/// Buildings of one tile that moved to one other tile of another place, because one place would have more than 16 tiles.
+struct MovedBuildings {
+    ChangedTiles tiles;            ///< the tile before, and the tile after
+    std::vector<std::string> ids;  ///< ascending
+};
+
 struct CityChanges {
     std::vector<ChangedTiles> places;
     std::uint64_t equalTiles = 0, equalBuildings = 0;
-    /// Buildings in other tiles than before whose tiles are not in one place, because it would have more than 16 tiles. A
-    /// comparison of the places finds them removed and added.
-    std::uint64_t apart = 0;
+    /// A comparison of the places must leave them out, else it finds them removed and added.
+    std::vector<MovedBuildings> apart;
 };
 
 /// Finds the tiles that differ. Tiles that were divided or joined are one place, and so are the tiles before and after of a
@@ -42,5 +48,10 @@ struct PlaceStates {
 /// Reads the tiles of a place, with their meshes. A state without tiles is empty on the grid of the other one.
 /// \return the volumes, or an error of City::readWithMeshes(), joinVolumes()
 [[nodiscard]] Result<PlaceStates> readPlace(const City& was, const City& is, const ChangedTiles& place);
+
+/// Takes the geometry from buildings with their parts: from those with these ids, or from all others.
+/// \param ids  ascending  \param areKept  whether those with these ids keep their geometry
+/// \return by label: whether it was taken
+std::vector<char> takeGeometry(volume::SemanticVolume& volume, const std::vector<std::string>& ids, bool areKept);
 
 }  // namespace svt::city

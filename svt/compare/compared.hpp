@@ -84,7 +84,14 @@ struct ClassSums {
 /// Rounds to a tenth of a micrometre or the like, so that no report has digits from rounding errors.
 [[nodiscard]] double withoutRounding(double value) noexcept;
 
-/// "3 changed, 1 removed, 41 same; 2 with other properties"
+/// The properties that differ with their numbers of rows: "class 1, attributes 2". Empty without any.
+[[nodiscard]] std::string propertiesText(const PropertyCounts& counts);
+
+/// A clause without a full stop on features of Comparison::ambiguousGroups; empty without any.
+[[nodiscard]] std::string ambiguousText(const Comparison& comparison);
+
+/// "1 removed, 3 changed, 41 same; without geometry: 1 added; 2 with other properties (name 1, attributes 2)". It names at
+/// least one difference if the comparison has one.
 [[nodiscard]] std::string comparisonSummary(const Comparison& comparison);
 
 }  // namespace svt::compare

@@ -83,6 +83,9 @@ struct ComparisonRow {
     std::vector<std::uint32_t> was, is;  ///< labels of the old and the new volume, ascending
     bool hasGeometry = false;            ///< false: a storey or group, which has only names and attributes
     std::optional<Vec3d> vector;         ///< metres, of moved objects
+    /// Degrees about the vertical, counter-clockwise seen from above, in (-180, 180]: the smallest turn that makes the new
+    /// shape of the old one, wherever it is. Only of changed objects. Empty: no turn does, or none is found.
+    std::optional<double> rotation;
     std::optional<double> added,
         removed;                     ///< m3 of the new shape outside of the old one, and the reverse; empty: unknown
     std::optional<double> bound;     ///< m3 by which each of the two may be off; empty: unknown
@@ -91,21 +94,34 @@ struct ComparisonRow {
     bool hasOtherId = false, hasOtherClass = false, hasOtherName = false, hasOtherStorey = false;
     std::vector<AttributeChange> attributes{};
 
-    /// Whether space, name, class, storey or attributes differ. Other ids do not count.
-    [[nodiscard]] bool isDifferent() const noexcept {
-        return change != Change::Same || hasOtherClass || hasOtherName || hasOtherStorey || !attributes.empty();
+    [[nodiscard]] bool hasOtherProperties() const noexcept {
+        return hasOtherClass || hasOtherName || hasOtherStorey || !attributes.empty();
     }
+    /// Whether space, name, class, storey or attributes differ. Other ids do not count.
+    [[nodiscard]] bool isDifferent() const noexcept { return change != Change::Same || hasOtherProperties(); }
+};
+
+/// Rows by the property that differs. One row may count in several.
+struct PropertyCounts {
+    std::size_t classes = 0, names = 0, storeys = 0, attributes = 0;
 };
 
 struct Comparison {
     std::vector<ComparisonRow> rows;                 ///< by new label, then removed objects by old label
     std::array<std::size_t, kChangeCount> counts{};  ///< objects with geometry, by Change
+    std::array<std::size_t, kChangeCount> groups{};  ///< features without geometry, by Change: same, added, removed
     std::size_t otherProperties = 0;                 ///< rows whose class, name, storey or attributes differ
+    PropertyCounts properties;
+    /// Features without geometry in both states that have no partner because several are possible. Their rows are added
+    /// and removed.
+    std::size_t ambiguousGroups = 0;
     bool isReferenceSystemUnknown = false;  ///< of one volume, or of two with different names: coordinates are compared
     bool isOnOneLattice = false;            ///< the samples of both grids coincide; else voxels give no volumes
     bool isComplete = true;                 ///< false: the work did not suffice for all exact volumes
 
     [[nodiscard]] bool isDifferent() const noexcept;
+    /// Counts a row in counts, groups, otherProperties and properties.
+    void count(const ComparisonRow& row) noexcept;
 };
 
 /// Compares two volumes in one coordinate reference system.

@@ -29,6 +29,7 @@ Json rowJson(const ComparisonRow& row, const StateFeatures& was, const StateFeat
     json["vector"] = row.vector ? Json{compare::withoutRounding(row.vector->x), compare::withoutRounding(row.vector->y),
                                        compare::withoutRounding(row.vector->z)}
                                 : Json();
+    json["rotation"] = knownJson(row.rotation);
     json["added"] = knownJson(row.added);
     json["removed"] = knownJson(row.removed);
     json["distance"] = knownJson(row.distance);
@@ -71,6 +72,13 @@ Json classesJson(std::span<const ClassSums> classes) {
     return json;
 }
 
+Json propertiesJson(const compare::PropertyCounts& counts) {
+    return {{"class", counts.classes},
+            {"name", counts.names},
+            {"storey", counts.storeys},
+            {"attributes", counts.attributes}};
+}
+
 Json comparisonJson(const Compared& compared) {
     Json json;
     json["rows"] = rowsJson(compared, true);
@@ -78,7 +86,11 @@ Json comparisonJson(const Compared& compared) {
     summary["different"] = compared.comparison.isDifferent();
     for (std::size_t change = 0; change < compare::kChangeCount; ++change)
         summary["changes"][std::string(nameOf(static_cast<Change>(change)))] = compared.comparison.counts[change];
+    for (const Change change : {Change::Same, Change::Added, Change::Removed})
+        summary["groups"][std::string(nameOf(change))] = compared.comparison.groups[std::size_t(change)];
+    summary["ambiguousGroups"] = compared.comparison.ambiguousGroups;
     summary["otherProperties"] = compared.comparison.otherProperties;
+    summary["properties"] = propertiesJson(compared.comparison.properties);
     summary["classes"] = classesJson(compare::sumsByClass(compared, compare::allRows(compared.comparison)));
     summary["complete"] = compared.comparison.isComplete;
     return json;

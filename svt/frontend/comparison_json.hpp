@@ -18,6 +18,8 @@ using record::Json;
 /// Parts of this JSON: the rows, and the sums of the classes. \param hasAll  false: only rows that differ
 [[nodiscard]] Json rowsJson(const compare::Compared& compared, bool hasAll);
 [[nodiscard]] Json classesJson(std::span<const compare::ClassSums> classes);
+/// The numbers of rows with another class, name, storey, and with other attributes.
+[[nodiscard]] Json propertiesJson(const compare::PropertyCounts& counts);
 
 /// The comparison as a file, byte for byte what `svt diff -o F.json` writes. Invalid UTF-8 is replaced.
 [[nodiscard]] std::string comparisonFile(const compare::Compared& compared);

@@ -114,6 +114,7 @@ struct SampleChange {
     SampleEdit edit = SampleEdit::Move;
     std::optional<std::string> was, is;  ///< ids; empty: the component was duplicated or deleted
     std::optional<Vec3d> vector;         ///< world, metres, of a move
+    std::optional<double> rotation;      ///< degrees about the vertical, counter-clockwise seen from above
     double added = 0, removed = 0;       ///< m3 of the new shape outside of the old one, and the reverse
     std::pair<std::string, std::string> className{}, name{};  ///< old and new; classes of CityGML 3.0
 };

@@ -108,6 +108,7 @@ void printNotes(const Compared& compared) {
             "the two volumes have different sample positions, so objects without closed meshes have no volumes; give "
             "one "
             "state as a model file");
+    if (const std::string ambiguous = ambiguousText(compared.comparison); !ambiguous.empty()) note(ambiguous);
     if (!compared.comparison.isComplete)
         note("some pairs of objects have too many faces for exact volumes; their volumes come from voxels");
 }
@@ -162,6 +163,12 @@ Result<void> writeOutput(const std::filesystem::path& output, const Compared& co
     const std::string ending = endingOf(output);
     if (ending == ".svt") {
         const auto& volume = difference.volume();
+        if (!volume && !compare::overlapInSpace(compared.was.grid, compared.is.grid))
+            return Error(
+                volume.error().code(),
+                fmt::format("'{}': the models do not overlap in space, and one volume of both is not possible; "
+                            "to compare them at one place, use --align translation ({})",
+                            output.string(), volume.error().message()));
         if (!volume) return volume.error();
         SVT_DO(compare::writeDifference(*volume, compared.was, compared.is, compared.comparison,
                                         compared.options.tolerance, compared.shift, output));
@@ -205,9 +212,6 @@ Result<int> runCityDiff(const DiffArguments& arguments) {
         note("the reference system of a city is unknown; the coordinates are compared as they are");
     if (comparison->changedTiles > 0 && !comparison->hasMeshes)
         note("the tiles have no meshes, so voxels decide; changes smaller than a voxel may be missing");
-    if (comparison->apart > 0)
-        note(
-            fmt::format("{} buildings that moved to another tile have two rows, removed and added", comparison->apart));
     for (const std::filesystem::path& output : arguments.outputs)
         SVT_DO(writeFileAtomically(
             output, endingOf(output) == ".csv"

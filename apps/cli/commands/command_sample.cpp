@@ -54,6 +54,7 @@ Json changeJson(const samples::SampleChange& change, bool hasNewIds) {
     json["old"] = ids(change.was);
     json["new"] = ids(change.is);
     json["vector"] = change.vector ? Json{change.vector->x, change.vector->y, change.vector->z} : Json();
+    json["rotation"] = change.rotation ? Json(*change.rotation) : Json();
     json["added"] = change.added;
     json["removed"] = change.removed;
     Json& properties = json["properties"] = Json::object();

@@ -22,7 +22,9 @@ struct CityComparison {
     std::vector<ClassSums> classes;
     /// Objects with geometry by their change; 0 for Change::Same, because tiles with equal bytes are not counted.
     std::array<std::size_t, compare::kChangeCount> counts{};
+    std::array<std::size_t, compare::kChangeCount> groups{};  ///< likewise, features without geometry
     std::size_t otherProperties = 0;
+    compare::PropertyCounts properties;
     bool isComplete = true;  ///< see Comparison::isComplete
     bool hasMeshes = false;  ///< a tile keeps its meshes
     std::uint64_t changedTiles = 0, equalTiles = 0, equalBuildings = 0, apart = 0;

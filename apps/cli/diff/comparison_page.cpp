@@ -110,6 +110,8 @@ std::string limitsText(const Compared& compared) {
             "<p>The two volumes have different sample positions. Objects without closed meshes have no volumes.</p>\n";
     if (!comparison.isComplete)
         text += "<p>Some pairs of objects have too many faces for exact volumes. Their volumes come from voxels.</p>\n";
+    if (const std::string ambiguous = ambiguousText(comparison); !ambiguous.empty())
+        text += "<p>" + ambiguous + ".</p>\n";
     return text;
 }
 
@@ -141,7 +143,9 @@ std::string countsList(const std::array<std::size_t, compare::kChangeCount>& cou
     return text + "</ul>\n";
 }
 
-bool isNumeric(const Column& column) { return column.title.ends_with(" m") || column.title.ends_with(" m3"); }
+bool isNumeric(const Column& column) {
+    return column.title.ends_with(" m") || column.title.ends_with(" m3") || column.title.ends_with(" deg");
+}
 
 std::string cellHtml(const Cell& cell, const Column& column) {
     const auto text = [&]() -> std::string {
@@ -264,9 +268,14 @@ Result<std::string> comparisonPage(const Compared& compared, ChangePictures* pic
                          : fmt::format("<p><b>{} rows differ.</b></p>\n", rows.size());
     text += inputsTable(compared) + limitsText(compared);
     text += "<h2>Summary</h2>\n" + countsList(compared.comparison.counts);
+    const std::size_t added = compared.comparison.groups[std::size_t(Change::Added)],
+                      removed = compared.comparison.groups[std::size_t(Change::Removed)];
+    if (added + removed > 0)
+        text +=
+            fmt::format("<p>Without geometry, such as storeys and groups: {} added, {} removed.</p>\n", added, removed);
     if (compared.comparison.otherProperties > 0)
-        text += fmt::format("<p>{} rows have another class, name, storey or attributes.</p>\n",
-                            compared.comparison.otherProperties);
+        text += fmt::format("<p>{} rows have another class, name, storey or attributes ({}).</p>\n",
+                            compared.comparison.otherProperties, propertiesText(compared.comparison.properties));
     const std::string sums = sumsTable(compared, rows);
     if (!sums.empty())
         text += sums + "<p>The sums are by class, because objects of different classes contain each other.</p>\n";

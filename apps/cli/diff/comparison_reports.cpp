@@ -18,21 +18,14 @@ Cell cellOf(const std::optional<double>& value) { return value ? Cell(withoutRou
 Table comparisonTable(const Compared& compared, bool hasAll, std::size_t mostProperties) {
     const StateFeatures was(compared.was), is(compared.is);
     Table table;
-    table.columns = {{"change", "change"},
-                     {"class", "class"},
-                     {"old", "old id"},
-                     {"new", "new id"},
-                     {"name", "name"},
-                     {"storey", "storey"},
-                     {"vectorX", "dx m", 4},
-                     {"vectorY", "dy m", 4},
-                     {"vectorZ", "dz m", 4},
-                     {"added", "added m3", 4},
-                     {"removed", "removed m3", 4},
-                     {"bound", "+- m3", 4},
-                     {"distance", "distance m", 4},
-                     {"exact", "exact"},
-                     {"properties", "other properties"}};
+    table.columns = {{"change", "change"},     {"class", "class"},
+                     {"old", "old id"},        {"new", "new id"},
+                     {"name", "name"},         {"storey", "storey"},
+                     {"vectorX", "dx m", 4},   {"vectorY", "dy m", 4},
+                     {"vectorZ", "dz m", 4},   {"rotation", "turned deg", 3},
+                     {"added", "added m3", 4}, {"removed", "removed m3", 4},
+                     {"bound", "+- m3", 4},    {"distance", "distance m", 4},
+                     {"exact", "exact"},       {"properties", "other properties"}};
     for (const ComparisonRow& row : compared.comparison.rows) {
         if (!hasAll && !row.isDifferent()) continue;
         const RowSubject subject = subjectOf(row, was, is);
@@ -47,6 +40,7 @@ Table comparisonTable(const Compared& compared, bool hasAll, std::size_t mostPro
         cells.push_back(storey.empty() ? Cell() : Cell(storey));
         for (int axis = 0; axis < 3; ++axis)
             cells.push_back(row.vector ? Cell(withoutRounding((*row.vector)[axis])) : Cell());
+        cells.push_back(cellOf(row.rotation));
         for (const auto* value : {&row.added, &row.removed, &row.bound, &row.distance}) cells.push_back(cellOf(*value));
         cells.push_back(row.hasGeometry ? Cell(row.isExact) : Cell());
         const std::string properties = otherProperties(row, mostProperties);

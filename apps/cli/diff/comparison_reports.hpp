@@ -15,6 +15,7 @@ namespace svt::cli {
 /// \param mostProperties  maximum number of names in the column of other properties; further ones are counted
 [[nodiscard]] Table comparisonTable(const Compared& compared, bool hasAll, std::size_t mostProperties = 1000);
 
-using frontend::classesJson, frontend::comparisonFile, frontend::comparisonJson, frontend::rowsJson;
+using frontend::classesJson, frontend::comparisonFile, frontend::comparisonJson, frontend::propertiesJson,
+    frontend::rowsJson;
 
 }  // namespace svt::cli

@@ -74,6 +74,7 @@ std::string descriptionOf(const ComparisonRow& row, const StateFeatures& was, co
     if (!row.is.empty()) text += "New: " + joined(is.ids(row.is)) + "\n";
     if (row.vector)
         text += fmt::format("Moved by: {:.4f}, {:.4f}, {:.4f} m\n", row.vector->x, row.vector->y, row.vector->z);
+    if (row.rotation) text += fmt::format("Turned by: {:.3f} degrees about the vertical\n", *row.rotation);
     if (row.hasGeometry && row.change != Change::Same) text += volumeText(row) + "\n";
     if (row.distance && row.change != Change::Same)
         text += fmt::format("Largest distance of sampled points: {:.4f} m\n", *row.distance);

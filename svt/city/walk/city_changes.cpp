@@ -168,7 +168,17 @@ private:
         for (std::size_t n = 0; n < ids.size(); ++n)
             for (const std::string& id : ids[n][1])
                 if (const auto at = tileOf.find(id); at != tileOf.end())
-                    changes_.apart += !places.unite(n, at->second, Places::kMostTiles);
+                    places.unite(n, at->second, Places::kMostTiles);
+        std::map<std::pair<std::size_t, std::size_t>, std::vector<std::string>> apart;  // by old and new tile
+        for (std::size_t n = 0; n < ids.size(); ++n)
+            for (std::string& id : ids[n][1])
+                if (const auto at = tileOf.find(id); at != tileOf.end() && places.find(n) != places.find(at->second))
+                    apart[{at->second, n}].push_back(std::move(id));
+        for (auto& [tiles, moved] : apart) {
+            std::sort(moved.begin(), moved.end());
+            changes_.apart.push_back(
+                {{{*changed_[tiles.first].second.was}, {*changed_[tiles.second].second.is}}, std::move(moved)});
+        }
         return {};
     }
 
@@ -229,6 +239,21 @@ volume::SemanticVolume emptyState(const volume::SemanticVolume& other) {
 Result<CityChanges> findCityChanges(const City& was, const City& is, int threads, const Progress* progress) {
     SVT_DO(checkComparable(was, is));
     return ChangeFinder(was, is, threads, progress).run();
+}
+
+std::vector<char> takeGeometry(volume::SemanticVolume& volume, const std::vector<std::string>& ids, bool areKept) {
+    std::vector<volume::Label>& labels = volume.labels.labels;
+    std::vector<char> isTaken(labels.size(), 0);
+    for (std::uint32_t l = 0; l < labels.size(); ++l) {
+        const bool isNamed = labels[l].parent != volume::kNoLabel
+                                 ? isTaken[labels[l].parent] != (areKept ? 1 : 0)
+                                 : std::binary_search(ids.begin(), ids.end(), labels[l].id);
+        if (isNamed == areKept) continue;
+        isTaken[l] = 1;
+        labels[l].voxels = 0;
+    }
+    std::erase_if(volume.vectors.triangles, [&](const auto& triangle) { return isTaken[triangle.label] != 0; });
+    return isTaken;
 }
 
 Result<PlaceStates> readPlace(const City& was, const City& is, const ChangedTiles& place) {

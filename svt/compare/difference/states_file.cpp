@@ -35,7 +35,7 @@ RowsJson rowToJson(const ComparisonRow& row) {
     to["removed"] = orNull(row.removed);
     to["bound"] = orNull(row.bound);
     to["distance"] = orNull(row.distance);
-    to["properties"] = row.hasOtherClass || row.hasOtherName || row.hasOtherStorey || !row.attributes.empty();
+    to["properties"] = row.hasOtherProperties();
     return to;
 }
 
@@ -110,7 +110,7 @@ Result<void> readRows(std::string_view text, ComparedStates& states) {
     Comparison& comparison = states.comparison;
     for (const RowsJson& from : *rows) {
         SVT_TRY(row, rowFromJson(from, wasCount, isCount));
-        if (row->hasGeometry) ++comparison.counts[std::size_t(row->change)];
+        comparison.count(*row);
         comparison.otherProperties += isTrue(from, "properties") ? 1 : 0;
         comparison.rows.push_back(std::move(*row));
     }

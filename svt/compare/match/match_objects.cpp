@@ -17,6 +17,7 @@ constexpr std::size_t kMostPairs = 1'000'000;  // of objects that are alike and 
 constexpr double kPartInWhole = 0.9;           // of a part's volume in the whole, and of the whole filled by parts
 constexpr double kLeastShared = 0.25;          // common space per united space of two objects of one class
 constexpr double kLeastSharedOfOtherClass = 0.9;
+constexpr double kLeastSharedByBoxes = 0.4;  // likewise of their boxes, of two objects with one name
 
 // Two shapes that may be one object.
 struct Candidate {
@@ -52,6 +53,7 @@ public:
         if (options_.match != MatchBy::Space) matchIds();
         if (options_.match != MatchBy::Id) {
             matchShared();
+            matchNames();
             matchElsewhere();
         }
         for (std::uint32_t s = 0; s < isUsedOfWas_.size(); ++s)
@@ -186,6 +188,17 @@ private:
         }
     }
 
+    // Whether a part goes on as an object of its own: the other state has its id and class in an object that is neither the
+    // whole nor matched.
+    [[nodiscard]] bool goesOn(const Shared& shared, bool isSplit) const {
+        if (options_.match != MatchBy::Both) return false;
+        const volume::Label& part = isSplit ? isLabel(shared.is) : wasLabel(shared.was);
+        const std::uint32_t other = find(isSplit ? byIdOfWas_ : byIdOfIs_, part.id);
+        if (other == kNone || other == (isSplit ? shared.was : shared.is)) return false;
+        if ((isSplit ? isUsedOfWas_ : isUsedOfIs_)[other] != 0) return false;
+        return (isSplit ? wasLabel(other) : isLabel(other)).className == part.className;
+    }
+
     // Splits (an old whole, new parts), or merges.
     void matchWholes(bool isSplit) {
         std::unordered_map<std::uint32_t, std::vector<std::size_t>> partsOf;
@@ -193,7 +206,7 @@ private:
         for (std::size_t n = 0; n < shared_.size(); ++n) {
             const Shared& shared = shared_[n];
             if (shared.common < kPartInWhole * (isSplit ? shared.ofIs : shared.ofWas)) continue;
-            if (wasLabel(shared.was).className != isLabel(shared.is).className) continue;
+            if (wasLabel(shared.was).className != isLabel(shared.is).className || goesOn(shared, isSplit)) continue;
             const std::uint32_t whole = isSplit ? shared.was : shared.is;
             std::vector<std::size_t>& parts = partsOf[whole];
             if (parts.empty()) wholes.push_back(whole);
@@ -245,6 +258,41 @@ private:
                 candidates.push_back({shared.was, shared.is, isOneClass ? 1.0 : 0.0, -share});
         }
         takeBest(candidates);
+    }
+
+    // By name the shapes that are still open; kNone where several have it.
+    static Ids openNames(const volume::SemanticVolume& volume, std::span<const Shape> shapes,
+                         const std::vector<char>& isUsed) {
+        Ids names;
+        for (std::uint32_t s = 0; s < shapes.size(); ++s) {
+            const std::string& name = volume.labels.labels[shapes[s].label].name;
+            if (isUsed[s] != 0 || name.empty()) continue;
+            if (const auto [at, isNew] = names.try_emplace(name, s); !isNew) at->second = kNone;
+        }
+        return names;
+    }
+
+    // Such as a window of one solid, and one of a frame and panes.
+    void matchNames() {
+        const Ids before = openNames(sides_.was, sides_.wasShapes, isUsedOfWas_),
+                  after = openNames(sides_.is, sides_.isShapes, isUsedOfIs_);
+        for (std::uint32_t was = 0; was < isUsedOfWas_.size(); ++was) {
+            if (isUsedOfWas_[was] != 0 || find(before, wasLabel(was).name) != was) continue;
+            const std::uint32_t is = find(after, wasLabel(was).name);
+            if (is != kNone && sides_.wasShapes[was].isSolid && sides_.isShapes[is].isSolid &&
+                sharedByBoxes(sides_.wasShapes[was].box, sides_.isShapes[is].box) >= kLeastSharedByBoxes)
+                use(was, is);
+        }
+    }
+
+    static double sharedByBoxes(const Box3d& a, const Box3d& b) noexcept {
+        double common = 1, ofA = 1, ofB = 1;
+        for (int axis = 0; axis < 3; ++axis) {
+            common *= std::max(0.0, std::min(a.max[axis], b.max[axis]) - std::max(a.min[axis], b.min[axis]));
+            ofA *= a.max[axis] - a.min[axis];
+            ofB *= b.max[axis] - b.min[axis];
+        }
+        return common / std::max(ofA + ofB - common, 1e-12);
     }
 
     // Those of one class whose areas follow each other closely form a cluster.

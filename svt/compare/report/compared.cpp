@@ -137,13 +137,45 @@ ClassSums sumsOfComponents(const Compared& compared) {
 
 double withoutRounding(double value) noexcept { return std::round(value * 1e7) / 1e7; }
 
-std::string comparisonSummary(const Comparison& comparison) {
+namespace {
+
+// "1 removed, 3 added", from the last kind to the first.
+std::string countsText(const std::array<std::size_t, kChangeCount>& counts, bool hasSame) {
     std::string text;
     for (std::size_t change = kChangeCount; change-- > 0;)
-        if (const std::size_t count = comparison.counts[change]; count > 0)
-            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, nameOf(static_cast<Change>(change)));
+        if (counts[change] > 0 && (hasSame || static_cast<Change>(change) != Change::Same))
+            text +=
+                fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[change], nameOf(static_cast<Change>(change)));
+    return text;
+}
+
+}  // namespace
+
+std::string propertiesText(const PropertyCounts& counts) {
+    std::string text;
+    for (const auto& [count, name] : {std::pair(counts.classes, "class"), std::pair(counts.names, "name"),
+                                      std::pair(counts.storeys, "storey"), std::pair(counts.attributes, "attributes")})
+        if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count);
+    return text;
+}
+
+std::string ambiguousText(const Comparison& comparison) {
+    if (comparison.ambiguousGroups == 0) return {};
+    return fmt::format(
+        "{} features without geometry have other ids, and several of one class and name, so they are removed and added",
+        comparison.ambiguousGroups);
+}
+
+std::string comparisonSummary(const Comparison& comparison) {
+    std::string text = countsText(comparison.counts, true);
     if (text.empty()) text = "no objects";
-    if (comparison.otherProperties > 0) text += fmt::format("; {} with other properties", comparison.otherProperties);
+    if (const std::string groups = countsText(comparison.groups, false); !groups.empty())
+        text += "; without geometry: " + groups;
+    if (comparison.otherProperties > 0) {
+        const std::string properties = propertiesText(comparison.properties);
+        text += fmt::format("; {} with other properties", comparison.otherProperties);
+        if (!properties.empty()) text += fmt::format(" ({})", properties);
+    }
     return text;
 }
 

@@ -78,6 +78,26 @@ TEST(ComparedRows, BeginWithTheLargestChange) {
     EXPECT_EQ(rowsByVolume(report.comparison), (std::vector<std::uint32_t>{4, 2, 1, 0}));
 }
 
+// A difference that only a group, or only a property has, is in the summary.
+TEST(ComparedRows, SummaryNamesEachDifference) {
+    ReportCase report;
+    report.add("Wall", Change::Same, 0.0, 0.0, 0.0);
+    report.add("Wall", Change::Changed, 1.0, 0.0, 0.0);
+    ComparisonRow& renamed = report.add("Wall", Change::Same, 0.0, 0.0, 0.0);
+    renamed.hasOtherName = renamed.hasOtherStorey = true;
+    renamed.attributes.push_back({"fireRating", {}, {}});
+    ComparisonRow& group = report.add("Zone", Change::Added, {}, {}, {});
+    group.hasGeometry = false;
+    group.was.clear();
+    for (const ComparisonRow& row : report.comparison.rows) report.comparison.count(row);
+    EXPECT_EQ(comparisonSummary(report.comparison),
+              "1 changed, 2 same; without geometry: 1 added; 1 with other properties (name 1, storey 1, attributes 1)");
+    EXPECT_EQ(comparisonSummary({}), "no objects");
+    EXPECT_EQ(ambiguousText(report.comparison), "");
+    report.comparison.ambiguousGroups = 4;
+    EXPECT_EQ(ambiguousText(report.comparison).substr(0, 27), "4 features without geometry");
+}
+
 TEST(ComparedRows, GridsApartDoNotOverlap) {
     const auto gridAt = [](double x) {
         return volume::Grid::fromParts({11, 11, 11}, {0.1, 0.1, 0.1}, {x, 0, 0}, kWorldAxes).value();

@@ -2,6 +2,7 @@
 
 #include <svt/compare/match/match_objects.hpp>
 #include <svt/compare/rows/geometry_change.hpp>
+#include <svt/compare/rows/match_groups.hpp>
 #include <svt/compare/rows/properties.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/crs/crs_name.hpp>
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <span>
 #include <utility>
+#include <variant>
 
 namespace svt::compare {
 namespace {
@@ -36,6 +38,23 @@ std::vector<char> countedLabels(const volume::SemanticVolume& volume, std::span<
     std::vector<char> isCounted(volume.labels.labels.size(), 0);
     for (const Shape& shape : shapes) isCounted[shape.label] = shape.isSolid ? 0 : 1;
     return isCounted;
+}
+
+// Faces that close an open shell. The reader made and numbered them, so they say nothing about the state.
+bool isGeneratedCap(const volume::Label& label) {
+    const auto isMark = [](const Attribute& attribute) {
+        const bool* value = std::get_if<bool>(&attribute.value);
+        return attribute.name == "generated" && value != nullptr && *value;
+    };
+    return label.className == "ClosureSurface" && std::any_of(label.attributes.begin(), label.attributes.end(), isMark);
+}
+
+// By label: features that have a row of their geometry, or no row.
+std::vector<char> labelsWithoutGroups(const volume::SemanticVolume& volume, std::span<const Shape> shapes) {
+    std::vector<char> isOther(volume.labels.labels.size(), 0);
+    for (std::size_t l = 0; l < isOther.size(); ++l) isOther[l] = isGeneratedCap(volume.labels.labels[l]) ? 1 : 0;
+    for (const Shape& shape : shapes) isOther[shape.label] = 1;
+    return isOther;
 }
 
 class Comparer {
@@ -66,11 +85,7 @@ public:
         comparison_.isOnOneLattice = voxels.isOnOneLattice();
         comparison_.isComplete = spaces.isComplete();
         addProperties();
-        for (const ComparisonRow& row : comparison_.rows) {
-            if (row.hasGeometry) ++comparison_.counts[std::size_t(row.change)];
-            if (row.hasOtherClass || row.hasOtherName || row.hasOtherStorey || !row.attributes.empty())
-                ++comparison_.otherProperties;
-        }
+        for (const ComparisonRow& row : comparison_.rows) comparison_.count(row);
         return std::move(comparison_);
     }
 
@@ -102,15 +117,14 @@ private:
     void addProperties() {
         const std::size_t wasCount = was_.labels.labels.size(), isCount = is_.labels.labels.size();
         FeaturePairs pairs{std::vector(wasCount, volume::kNoLabel), std::vector(isCount, volume::kNoLabel)};
-        std::vector<char> hasGeometryOfWas(wasCount, 0), hasGeometryOfIs(isCount, 0);
-        for (const Shape& shape : wasShapes_) hasGeometryOfWas[shape.label] = 1;
-        for (const Shape& shape : isShapes_) hasGeometryOfIs[shape.label] = 1;
+        const std::vector<char> hasGeometryOfWas = labelsWithoutGroups(was_, wasShapes_),
+                                hasGeometryOfIs = labelsWithoutGroups(is_, isShapes_);
         for (const ComparisonRow& row : comparison_.rows)
             if (row.was.size() == 1 && row.is.size() == 1) {
                 pairs.isOfWas[row.was[0]] = row.is[0];
                 pairs.wasOfIs[row.is[0]] = row.was[0];
             }
-        matchGroups(was_, is_, hasGeometryOfWas, hasGeometryOfIs, pairs);
+        comparison_.ambiguousGroups = matchGroups(was_, is_, options_.match, hasGeometryOfWas, hasGeometryOfIs, pairs);
         for (std::uint32_t l = 0; l < isCount; ++l)
             if (hasGeometryOfIs[l] == 0) addGroup(pairs.wasOfIs[l], l);
         for (std::uint32_t l = 0; l < wasCount; ++l)
@@ -142,6 +156,15 @@ private:
 
 bool Comparison::isDifferent() const noexcept {
     return std::any_of(rows.begin(), rows.end(), [](const ComparisonRow& row) { return row.isDifferent(); });
+}
+
+void Comparison::count(const ComparisonRow& row) noexcept {
+    ++(row.hasGeometry ? counts : groups)[std::size_t(row.change)];
+    if (row.hasOtherProperties()) ++otherProperties;
+    properties.classes += row.hasOtherClass ? 1 : 0;
+    properties.names += row.hasOtherName ? 1 : 0;
+    properties.storeys += row.hasOtherStorey ? 1 : 0;
+    properties.attributes += row.attributes.empty() ? 0 : 1;
 }
 
 Result<Comparison> compareVolumes(const volume::SemanticVolume& was, const volume::SemanticVolume& is,

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -160,7 +161,64 @@ TEST(Comparison, FindsRotatedObjectsWithOtherIds) {
     EXPECT_EQ(row.was.size(), 1u);
     EXPECT_NEAR(row.added.value_or(0), 2.6 * 0.4 * 0.7, 1e-4);
     EXPECT_NEAR(row.removed.value_or(0), 2.6 * 0.4 * 0.7, 1e-4);
+    EXPECT_EQ(row.rotation, 90.0);
+    EXPECT_FALSE(row.vector);
     EXPECT_EQ(Compared({kSlab, table}, {kSlab, wider}).row("t2").change, Change::Added);
+}
+
+// A prism over a polygon without symmetry, turned about the vertical axis at (2, 1), and moved.
+model::BuildingModel prismOf(double degrees, Vec3d move = {}, double top = 0.7) {
+    model::BuildingModel model = modelOf({kSlab});
+    const double angle = degrees * 3.14159265358979323846 / 180;
+    const auto turned = [&](double x, double y, double z) {
+        return Vec3d{2, 1, 0} + move +
+               Vec3d{std::cos(angle) * x - std::sin(angle) * y, std::sin(angle) * x + std::cos(angle) * y, z};
+    };
+    const std::vector<std::array<double, 2>> plan{{-1, -0.5}, {1, -0.3}, {0.8, 0.4}, {0.1, 0.2}, {-0.7, 0.9}};
+    model::Solid solid;
+    std::vector<Vec3d> low, high;
+    for (const auto& [x, y] : plan) {
+        low.insert(low.begin(), turned(x, y, 0.1));
+        high.push_back(turned(x, y, top));
+    }
+    for (std::size_t n = 0; n < plan.size(); ++n) {
+        const auto& [ax, ay] = plan[n];
+        const auto& [bx, by] = plan[(n + 1) % plan.size()];
+        addFace(model, solid, {turned(ax, ay, 0.1), turned(bx, by, 0.1), turned(bx, by, top), turned(ax, ay, top)});
+    }
+    addFace(model, solid, low);
+    addFace(model, solid, high);
+    model::Geometry geometry;
+    geometry.kind = model::GeometryKind::Solid;
+    geometry.solids.push_back(std::move(solid));
+    model::Feature feature;
+    feature.id = "prism";
+    feature.className = "Furniture";
+    feature.geometries.push_back(std::move(geometry));
+    model.addFeature(std::move(feature), model::kNoFeature);
+    return model;
+}
+
+TEST(Comparison, StatesTheAngleOfTurnedObjects) {
+    const auto was = volumeOf(prismOf(0));
+    const auto rowOf = [&](model::BuildingModel model) {
+        const auto is = volumeOf(std::move(model), &was.grid);
+        const auto comparison = compareVolumes(was, is);
+        EXPECT_TRUE(comparison);
+        for (const ComparisonRow& row : comparison->rows)
+            if (!row.is.empty() && is.labels.labels[row.is[0]].id == "prism") return row;
+        return ComparisonRow();
+    };
+    for (const double degrees : {3.0, 45.0, -120.0, 180.0}) {
+        const ComparisonRow row = rowOf(prismOf(degrees));
+        EXPECT_EQ(row.change, Change::Changed) << degrees;
+        EXPECT_NEAR(row.rotation.value_or(0), degrees, 0.002) << degrees;
+    }
+    const ComparisonRow moved = rowOf(prismOf(30, {1, 0, 0}));
+    EXPECT_NEAR(moved.rotation.value_or(0), 30, 0.002);
+    EXPECT_FALSE(moved.vector) << "the place of the axis is not known";
+    EXPECT_FALSE(rowOf(prismOf(0, {1, 0, 0})).rotation) << "it moved";
+    EXPECT_FALSE(rowOf(prismOf(30, {}, 0.75)).rotation) << "it has another shape";
 }
 
 TEST(Comparison, KeepsMovesBelowTheTolerance) {
@@ -236,6 +294,41 @@ TEST(Comparison, FindsSplitsAndMerges) {
     const Compared merged({left, right, kSlab}, {kWall, kSlab});
     EXPECT_EQ(merged.row("wall").change, Change::Merged);
     EXPECT_EQ(merged.row("wall").was.size(), 2u);
+}
+
+// One format has a window as a frame, another one as a solid of another class.
+TEST(Comparison, MatchesNamesInOnePlace) {
+    const TestBox frame{"w", "Window", {1, 0.1, 1}, {2, 0.2, 2}, "Window 1"};
+    const TestBox solid{"1", "Element", {1, 0.05, 1}, {2, 0.25, 2}, "Window 1"};
+    const Compared compared({kSlab, frame}, {kSlab, solid});
+    EXPECT_EQ(compared.row("1").change, Change::Changed);
+    EXPECT_TRUE(compared.row("1").hasOtherClass);
+    EXPECT_NEAR(compared.row("1").added.value_or(0), 0.1, 1e-5);
+    TestBox twin = frame, apart = solid;
+    twin.id = "twin";
+    twin.min.x += 1.5;
+    twin.max.x += 1.5;
+    EXPECT_EQ(Compared({kSlab, frame, twin}, {kSlab, solid}).row("1").change, Change::Added) << "which of the two?";
+    apart.min.x = 1.6;
+    apart.max.x = 2.6;
+    EXPECT_EQ(Compared({kSlab, frame}, {kSlab, apart}).row("1").change, Change::Added);
+}
+
+// A wall that grew over its neighbour's old place, while the neighbour went on elsewhere.
+TEST(Comparison, DoesNotMergeObjectsThatGoOn) {
+    TestBox left = kWall, right = kWall, below = kWall;
+    right.id = below.id = "right";
+    left.max.x = right.min.x = 2.5;
+    below.min.x = 0.5;
+    below.min.y = -0.4;
+    below.max.y = -0.1;
+    const Compared compared({left, right, kSlab}, {kWall, below, kSlab});
+    EXPECT_EQ(compared.row("wall").change, Change::Changed);
+    EXPECT_EQ(compared.row("right").change, Change::Changed);
+    EXPECT_EQ(compared.row("right").was.size(), 1u);
+    TestBox renewed = below;
+    renewed.id = "other";
+    EXPECT_EQ(Compared({left, right, kSlab}, {kWall, renewed, kSlab}).row("wall").change, Change::Merged);
 }
 
 TEST(Comparison, FindsOtherNamesClassesAndOwnersOfSpace) {
@@ -359,6 +452,106 @@ TEST(Comparison, FindsRenamedGroupsAndOtherStoreys) {
     CompareOptions none;
     none.properties = Properties::None;
     EXPECT_FALSE(compareVolumes(was, is, none)->isDifferent());
+}
+
+// The caps of an open shell have numbers that depend on the rest of the file.
+TEST(Comparison, HasNoRowsOfCaps) {
+    auto open = modelOf({kWall, kSlab});
+    open.features[0].geometries[0].solids[0].exterior.pop_back();
+    const auto was = volumeOf(std::move(open)), is = volumeOf(modelOf({kSlab}), &was.grid);
+    ASSERT_TRUE(std::any_of(was.labels.labels.begin(), was.labels.labels.end(),
+                            [](const volume::Label& label) { return label.className == "ClosureSurface"; }));
+    const auto comparison = compareVolumes(was, is);
+    ASSERT_TRUE(comparison);
+    EXPECT_EQ(comparison->rows.size(), 2u);
+    EXPECT_EQ(comparison->counts[std::size_t(Change::Removed)], 1u);
+    EXPECT_EQ(comparison->groups[std::size_t(Change::Removed)], 0u);
+}
+
+// Another program may write numbers with 32 bits.
+TEST(Comparison, IgnoresTheRoundingOfAttributes) {
+    const auto modelWith = [](double height, const std::string& unit) {
+        auto model = modelOf({kWall});
+        model.features[0].attributes = {{"height", height, unit}, {"rating", std::string("F90")}};
+        return model;
+    };
+    const auto was = volumeOf(modelWith(1.82, "m"));
+    const auto attributesOf = [&](double height, const std::string& unit) {
+        const auto comparison = compareVolumes(was, volumeOf(modelWith(height, unit), &was.grid));
+        EXPECT_TRUE(comparison);
+        return comparison->rows.front().attributes.size();
+    };
+    EXPECT_EQ(attributesOf(double(1.82F), "m"), 0u);
+    EXPECT_EQ(attributesOf(1.8200009, "m"), 1u);
+    EXPECT_EQ(attributesOf(1.82, "mm"), 1u);
+}
+
+// Features without geometry, with the members that are boxes.
+struct TestGroup {
+    std::string id, name;
+    int parent = -1;  // a group
+    std::vector<std::uint32_t> members{};
+    std::string className = "Zone";
+};
+
+Comparison compareGroups(const std::vector<TestGroup>& before, const std::vector<TestGroup>& after,
+                         MatchBy match = MatchBy::Both) {
+    const auto modelWith = [](const std::vector<TestGroup>& groups) {
+        auto model = modelOf({kWall, kSlab});
+        for (const TestGroup& group : groups) {
+            model::Feature feature;
+            feature.id = group.id;
+            feature.className = group.className;
+            feature.name = group.name;
+            const auto number = static_cast<std::uint32_t>(model.features.size());
+            model.addFeature(std::move(feature),
+                             group.parent < 0 ? model::kNoFeature : static_cast<std::uint32_t>(2 + group.parent));
+            for (const std::uint32_t member : group.members) model.memberships.push_back({number, member, {}});
+        }
+        return model;
+    };
+    const auto was = volumeOf(modelWith(before)), is = volumeOf(modelWith(after), &was.grid);
+    CompareOptions options;
+    options.match = match;
+    auto comparison = compareVolumes(was, is, options);
+    EXPECT_TRUE(comparison);
+    return comparison ? std::move(*comparison) : Comparison{};
+}
+
+// All ids are new. Names are unique only below their parents.
+TEST(Comparison, MatchesGroupsByTheirParents) {
+    const std::vector<TestGroup> before{{"a", "North"}, {"b", "South"}, {"c", "Flat", 0}, {"d", "Flat", 1}};
+    const std::vector<TestGroup> after{{"1", "South"}, {"2", "North"}, {"3", "Flat", 1}, {"4", "Flat", 0}};
+    const Comparison comparison = compareGroups(before, after);
+    EXPECT_FALSE(comparison.isDifferent());
+    EXPECT_EQ(comparison.groups[std::size_t(Change::Same)], 4u);
+    EXPECT_EQ(comparison.ambiguousGroups, 0u);
+    EXPECT_TRUE(compareGroups(before, after, MatchBy::Id).isDifferent());
+}
+
+// All ids and names are new, so members decide, and nothing for the empty group.
+TEST(Comparison, MatchesGroupsByTheirMembers) {
+    const Comparison comparison = compareGroups(
+        {{"a", "Upper floor", -1, {0}, "Storey"}, {"b", "Ground", -1, {1}, "Storey"}, {"c", "Roof", -1, {}, "Storey"}},
+        {{"1", "Ground floor", -1, {1}, "Storey"}, {"2", "First floor", -1, {0}, "Storey"}});
+    EXPECT_EQ(comparison.groups[std::size_t(Change::Same)], 2u);
+    EXPECT_EQ(comparison.groups[std::size_t(Change::Removed)], 1u);
+    EXPECT_EQ(comparison.groups[std::size_t(Change::Added)], 0u);
+    EXPECT_EQ(comparison.properties.names, 2u);
+    EXPECT_EQ(comparison.properties.storeys, 0u) << "walls and slabs stay in their storeys";
+    EXPECT_EQ(comparison.otherProperties, 2u);
+}
+
+// Any pairs of equal groups without members give the same result. Others have several partners, which the result states.
+TEST(Comparison, MatchesOnlyGroupsWithoutAChoice) {
+    const Comparison equal = compareGroups({{"a", ""}, {"b", ""}, {"c", ""}}, {{"1", ""}, {"2", ""}});
+    EXPECT_EQ(equal.groups[std::size_t(Change::Same)], 2u);
+    EXPECT_EQ(equal.groups[std::size_t(Change::Removed)], 1u);
+    EXPECT_EQ(equal.ambiguousGroups, 0u);
+    const Comparison several = compareGroups({{"a", "", -1, {0}}, {"b", "", -1, {0}}}, {{"1", "", -1, {0}}, {"2", ""}});
+    EXPECT_EQ(several.groups[std::size_t(Change::Removed)], 2u);
+    EXPECT_EQ(several.groups[std::size_t(Change::Added)], 2u);
+    EXPECT_EQ(several.ambiguousGroups, 4u);
 }
 
 TEST(DifferenceVolume, CountsTheSpaceThatChanged) {

@@ -1,5 +1,6 @@
 #include <svt/compare/rows/geometry_change.hpp>
 
+#include <svt/compare/shape/rotation.hpp>
 #include <svt/compare/shape/surface_distance.hpp>
 
 #include <algorithm>
@@ -147,17 +148,28 @@ void GeometryMeasurer::measureFaces(const Match& match, ComparisonRow& row) cons
         same();
         return;
     }
+    measureMove(a, treeOfA, b, treeOfB, row);
+}
+
+void GeometryMeasurer::measureMove(const Shape& a, const FaceTree& treeOfA, const Shape& b, const FaceTree& treeOfB,
+                                   ComparisonRow& row) const {
     const Vec3d vector = b.center - a.center;
-    if (!areAlike(a, b, options_.tolerance) || length(vector) <= 0) return;
-    // A move leaves no other difference than rounding, and hardly any volume of its own.
-    const double rest = distanceBetween(a, treeOfA, b, treeOfB, vector);
-    const double volumes = a.volume && b.volume ? std::abs(*a.volume - *b.volume) : 0;
-    const double most = std::min(options_.tolerance, std::max(1e-4, length(vector) / 20));
     const double rounding = sides_.was.vectors.unit + sides_.is.vectors.unit;  // of points, at two places
-    if (rest <= most && volumes <= most * std::min(a.area, b.area) && agreeWithin(a, b, rest + rounding, vector)) {
-        row.change = Change::Moved;
-        row.vector = vector;
+    if (areAlike(a, b, options_.tolerance) && length(vector) > 0) {
+        // A move leaves no other difference than rounding, and hardly any volume of its own.
+        const double rest = distanceBetween(a, treeOfA, b, treeOfB, vector);
+        const double volumes = a.volume && b.volume ? std::abs(*a.volume - *b.volume) : 0;
+        const double most = std::min(options_.tolerance, std::max(1e-4, length(vector) / 20));
+        if (rest <= most && volumes <= most * std::min(a.area, b.area) && agreeWithin(a, b, rest + rounding, vector)) {
+            row.change = Change::Moved;
+            row.vector = vector;
+            return;
+        }
     }
+    // So does a turn, as a share of the distance that it explains.
+    const double most = std::min(options_.tolerance, std::max(1e-4, row.distance.value_or(0) / 20));
+    const auto rotation = rotationBetween(a, treeOfA, b, treeOfB, most);
+    if (rotation && std::abs(*rotation) >= 1e-3) row.rotation = std::round(*rotation * 1e3) / 1e3;
 }
 
 }  // namespace svt::compare

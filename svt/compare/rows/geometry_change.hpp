@@ -6,10 +6,11 @@
 #include <svt/compare/comparison.hpp>
 #include <svt/compare/match/match_objects.hpp>
 #include <svt/compare/match/voxel_overlaps.hpp>
+#include <svt/compare/shape/surface_distance.hpp>
 
 namespace svt::compare {
 
-/// Measures the change of one match: `change`, `vector`, `added`, `removed`, `bound`, `distance` and `isExact` of a row.
+/// Measures the change of one match: `change`, `vector`, `rotation`, `added`, `removed`, `bound`, `distance` and `isExact` of a row.
 class GeometryMeasurer {
 public:
     GeometryMeasurer(const Sides& sides, const CompareOptions& options, analyze::CommonSpaces& spaces,
@@ -23,6 +24,8 @@ public:
 
 private:
     [[nodiscard]] bool measureExactly(const Match& match, ComparisonRow& row);
+    void measureMove(const Shape& a, const FaceTree& treeOfA, const Shape& b, const FaceTree& treeOfB,
+                     ComparisonRow& row) const;
     void measureVoxels(const Match& match, ComparisonRow& row) const;
     [[nodiscard]] double voxelBound(const Match& match) const;
 

@@ -1,27 +1,21 @@
 #include <svt/compare/rows/properties.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <variant>
 
 namespace svt::compare {
 namespace {
 
-using Key = std::tuple<std::string_view, std::string_view>;
-
-// The features without a partner by a key; kNoLabel where several have the key.
-template <class KeyOf>
-std::map<Key, std::uint32_t> openGroups(const volume::SemanticVolume& volume, const std::vector<char>& hasGeometry,
-                                        const std::vector<std::uint32_t>& partners, const KeyOf& keyOf) {
-    std::map<Key, std::uint32_t> found;
-    const auto& labels = volume.labels.labels;
-    for (std::uint32_t l = 0; l < labels.size(); ++l) {
-        if (hasGeometry[l] != 0 || partners[l] != volume::kNoLabel) continue;
-        if (const auto [at, isNew] = found.try_emplace(keyOf(labels[l]), l); !isNew) at->second = volume::kNoLabel;
-    }
-    return found;
+// Other programs round numbers to 32 bits.
+bool areRounded(const AttributeList& a, const AttributeList& b) {
+    if (!a.isSingle() || !b.isSingle()) return false;
+    const auto* p = std::get_if<double>(&a.items.front().attribute->value);
+    const auto* q = std::get_if<double>(&b.items.front().attribute->value);
+    return p != nullptr && q != nullptr && std::abs(*p - *q) <= 0x1p-23 * std::max(std::abs(*p), std::abs(*q));
 }
 
 bool areEqual(const AttributeList& a, const AttributeList& b) {
@@ -29,7 +23,7 @@ bool areEqual(const AttributeList& a, const AttributeList& b) {
         const Attribute* first = list.items.front().attribute;
         return first != nullptr ? std::string_view(first->unit) : std::string_view();
     };
-    return toText(a) == toText(b) && unitOf(a) == unitOf(b);
+    return unitOf(a) == unitOf(b) && (toText(a) == toText(b) || areRounded(a, b));
 }
 
 std::vector<AttributeChange> changesOf(const std::vector<Attribute>& was, const std::vector<Attribute>& is) {
@@ -61,23 +55,6 @@ std::uint32_t FeatureIds::find(std::string_view id) {
     return at == labels_.end() ? volume::kNoLabel : at->second;
 }
 
-void matchGroups(const volume::SemanticVolume& was, const volume::SemanticVolume& is,
-                 const std::vector<char>& hasGeometryOfWas, const std::vector<char>& hasGeometryOfIs,
-                 FeaturePairs& pairs) {
-    const auto pairBy = [&](const auto& keyOf) {
-        const auto before = openGroups(was, hasGeometryOfWas, pairs.isOfWas, keyOf);
-        const auto after = openGroups(is, hasGeometryOfIs, pairs.wasOfIs, keyOf);
-        for (const auto& [key, old] : before) {
-            const auto at = after.find(key);
-            if (old == volume::kNoLabel || at == after.end() || at->second == volume::kNoLabel) continue;
-            pairs.isOfWas[old] = at->second;
-            pairs.wasOfIs[at->second] = old;
-        }
-    };
-    pairBy([](const volume::Label& label) { return Key(label.className, label.id); });
-    pairBy([](const volume::Label& label) { return Key(label.className, label.name); });
-}
-
 void compareProperties(const volume::SemanticVolume& was, const volume::SemanticVolume& is, const FeaturePairs& pairs,
                        const std::vector<std::uint32_t>& wasStoreys, const std::vector<std::uint32_t>& isStoreys,
                        FeatureIds& wasIds, FeatureIds& isIds, ComparisonRow& row) {
@@ -91,9 +68,9 @@ void compareProperties(const volume::SemanticVolume& was, const volume::Semantic
     row.hasOtherStorey = expected != after || (before == volume::kNoLabel) != (after == volume::kNoLabel);
     row.attributes = changesOf(a.attributes, b.attributes);
     std::erase_if(row.attributes, [&](const AttributeChange& change) {
-        const std::string *before = singleText(change.was), *after = singleText(change.is);
-        if (before == nullptr || after == nullptr) return false;
-        const std::uint32_t old = wasIds.find(*before), now = isIds.find(*after);
+        const std::string *oldText = singleText(change.was), *newText = singleText(change.is);
+        if (oldText == nullptr || newText == nullptr) return false;
+        const std::uint32_t old = wasIds.find(*oldText), now = isIds.find(*newText);
         return old != volume::kNoLabel && now != volume::kNoLabel && pairs.isOfWas[old] == now;
     });
 }

@@ -3,6 +3,7 @@
 /// Names, classes, storeys and attributes of matched features.
 
 #include <svt/compare/comparison.hpp>
+#include <svt/compare/rows/match_groups.hpp>
 
 #include <cstdint>
 #include <string_view>
@@ -11,11 +12,6 @@
 #include <vector>
 
 namespace svt::compare {
-
-/// The new feature of each old one, and the reverse; kNoLabel without one.
-struct FeaturePairs {
-    std::vector<std::uint32_t> isOfWas, wasOfIs;
-};
 
 /// The features of a volume by id, found at the first question. Ids that occur twice belong to none.
 class FeatureIds {
@@ -30,15 +26,9 @@ private:
     std::unordered_map<std::string_view, std::uint32_t> labels_;
 };
 
-/// Completes the pairs by features without geometry, such as storeys: by id, then by class and name where these are
-/// unique.
-/// \param hasGeometryOfWas, hasGeometryOfIs  by label: the feature has been matched, or has no partner
-void matchGroups(const volume::SemanticVolume& was, const volume::SemanticVolume& is,
-                 const std::vector<char>& hasGeometryOfWas, const std::vector<char>& hasGeometryOfIs,
-                 FeaturePairs& pairs);
-
 /// Compares the properties of the one old and the one new feature of `row`. Two storeys are the same one if matchGroups()
-/// paired them. An attribute whose two values are the ids of one pair is the same reference.
+/// paired them. An attribute whose two values are the ids of one pair is the same reference. Two numbers whose difference is at
+/// most the rounding of 32-bit numbers (2^-23 of the larger) are the same.
 /// \param wasStoreys, isStoreys  by label, see drawing::storeysOfLabels()
 void compareProperties(const volume::SemanticVolume& was, const volume::SemanticVolume& is, const FeaturePairs& pairs,
                        const std::vector<std::uint32_t>& wasStoreys, const std::vector<std::uint32_t>& isStoreys,

@@ -1,8 +1,10 @@
 #include <svt/compare/shape/surface_distance.hpp>
 
+#include <svt/core/hash.hpp>
 #include <svt/core/triangle_distance.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 
@@ -11,11 +13,34 @@ namespace {
 
 Vec3d middleOf(const std::array<Vec3d, 3>& t) noexcept { return (t[0] + t[1] + t[2]) / 3.0; }
 
-double distanceToBox(const Box3d& box, Vec3d p) noexcept {
-    Vec3d off{};
-    for (int axis = 0; axis < 3; ++axis) off[axis] = std::max({box.min[axis] - p[axis], p[axis] - box.max[axis], 0.0});
-    return length(off);
+double squaredDistanceToBox(const Box3d& box, Vec3d p) noexcept {
+    const auto beyond = [](double low, double high, double at) { return std::max(std::max(low - at, at - high), 0.0); };
+    const double x = beyond(box.min.x, box.max.x, p.x), y = beyond(box.min.y, box.max.y, p.y),
+                 z = beyond(box.min.z, box.max.z, p.z);
+    return x * x + y * y + z * z;
 }
+
+// Corners and edges that were visited, by their points. A corner is an edge from a point to itself.
+class VisitedEdges {
+public:
+    explicit VisitedEdges(std::size_t triangles) : slots_(std::bit_ceil(8 * triangles + 16), kFree) {}
+
+    // Whether this is the first visit.
+    [[nodiscard]] bool add(std::uint32_t a, std::uint32_t b) noexcept {
+        const std::uint64_t key = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+        for (std::size_t at = mixHash(1, key);; ++at) {
+            std::uint64_t& slot = slots_[at & (slots_.size() - 1)];
+            if (slot == key) return false;
+            if (slot != kFree) continue;
+            slot = key;
+            return true;
+        }
+    }
+
+private:
+    static constexpr std::uint64_t kFree = ~std::uint64_t{0};
+    std::vector<std::uint64_t> slots_;  // at most 6 of 8 per triangle are used
+};
 
 // Points in rows along the longest side.
 template <class Use>
@@ -75,13 +100,17 @@ double FaceTree::distanceTo(Vec3d point, double enough, Hint& hint) const {
     };
     hint.triangle = std::min(hint.triangle, static_cast<std::uint32_t>(triangles_.size() - 1));
     double nearest = distanceOf(hint.triangle);
-    std::array<std::uint32_t, 64> stack{};
+    struct Open {
+        std::uint32_t node;
+        double squared;  // distance to its box
+    };
+    std::array<Open, 64> stack;
     std::size_t depth = 0;
-    stack[depth++] = 0;
+    stack[depth++] = {0, squaredDistanceToBox(nodes_[0].box, point)};
     while (depth > 0 && nearest > enough) {
-        const std::uint32_t number = stack[--depth];
+        const auto [number, squared] = stack[--depth];
+        if (squared >= nearest * nearest) continue;
         const Node& node = nodes_[number];
-        if (distanceToBox(node.box, point) >= nearest) continue;
         for (std::uint32_t t = node.first; t < node.first + node.count; ++t)
             if (const double distance = distanceOf(t); distance < nearest) {
                 nearest = distance;
@@ -89,25 +118,50 @@ double FaceTree::distanceTo(Vec3d point, double enough, Hint& hint) const {
             }
         if (node.count > 0) continue;
         // The nearer child is taken first.
-        std::uint32_t near = number + 1, far = node.first;
-        if (distanceToBox(nodes_[far].box, point) < distanceToBox(nodes_[near].box, point)) std::swap(near, far);
+        Open near{number + 1, squaredDistanceToBox(nodes_[number + 1].box, point)},
+            far{node.first, squaredDistanceToBox(nodes_[node.first].box, point)};
+        if (far.squared < near.squared) std::swap(near, far);
         stack[depth++] = far;
         stack[depth++] = near;
     }
     return nearest;
 }
 
+namespace {
+
+// Calls use(point) for the points of a triangle that no earlier one had.
+template <class Use>
+void forEachNewPoint(const Faces& faces, std::size_t t, VisitedEdges& visited, const Use& use) {
+    const auto& c = faces.triangles[t].corners;
+    const std::array<Vec3d, 3> p = faces.corners(t);
+    for (std::size_t n = 0; n < 3; ++n)
+        if (visited.add(c[n], c[n])) use(p[n]);
+    for (std::size_t n = 0; n < 3; ++n)
+        if (visited.add(c[n], c[(n + 1) % 3])) use((p[n] + p[(n + 1) % 3]) / 2.0);
+    use((p[0] + p[1] + p[2]) / 3.0);
+}
+
+}  // namespace
+
 double largestDistance(const Faces& faces, const FaceTree& other, Vec3d shift, double step) {
     double largest = 0;
-    FaceTree::Hint
-        hint;  // the points of a triangle, and mostly of the next one, have one triangle of the other near them
+    FaceTree::Hint hint;  // points of a triangle, and mostly of the next one, have one triangle of the other near them
+    VisitedEdges visited(faces.triangles.size());
     const auto look = [&](Vec3d point) { largest = std::max(largest, other.distanceTo(point + shift, largest, hint)); };
     for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
-        const auto [a, b, c] = faces.corners(t);
-        for (const Vec3d point : {a, b, c, (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, (a + b + c) / 3.0}) look(point);
-        if (step <= 0) continue;
-        forEachLatticePoint({a, b, c}, step, look);
+        forEachNewPoint(faces, t, visited, look);
+        if (step > 0) forEachLatticePoint(faces.corners(t), step, look);
     }
+    return largest;
+}
+
+double largestDistance(const Faces& faces, const FaceTree& other, const Turn& turn, double most) {
+    double largest = 0;
+    FaceTree::Hint hint;
+    VisitedEdges visited(faces.triangles.size());
+    const auto look = [&](Vec3d point) { largest = std::max(largest, other.distanceTo(turn(point), largest, hint)); };
+    for (std::size_t t = 0; t < faces.triangles.size() && largest <= most; ++t)
+        forEachNewPoint(faces, t, visited, look);
     return largest;
 }
 

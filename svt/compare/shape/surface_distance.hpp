@@ -40,10 +40,24 @@ private:
     std::vector<Node> nodes_;
 };
 
+/// A turn about a vertical axis, and a move.
+struct Turn {
+    Vec3d from{}, to{};           ///< the axis goes through `from`, and `from` moves to `to`
+    double cosine = 1, sine = 0;  ///< of the angle, counter-clockwise seen from above
+
+    [[nodiscard]] Vec3d operator()(Vec3d point) const noexcept {
+        const Vec3d off = point - from;
+        return to + Vec3d{cosine * off.x - sine * off.y, sine * off.x + cosine * off.y, off.z};
+    }
+    [[nodiscard]] Turn reversed() const noexcept { return {to, from, cosine, -sine}; }
+};
+
 /// The largest distance from points on `faces` to `other`: corners, midpoints of edges, and centres of all triangles, so
 /// at most the directed Hausdorff distance.
 /// \param shift  added to all points
 /// \param step   metres between further points on each triangle; 0: none
 [[nodiscard]] double largestDistance(const Faces& faces, const FaceTree& other, Vec3d shift = {}, double step = 0);
+/// The same from points that are turned first. The search ends at the first point farther away than `most` metres.
+[[nodiscard]] double largestDistance(const Faces& faces, const FaceTree& other, const Turn& turn, double most);
 
 }  // namespace svt::compare

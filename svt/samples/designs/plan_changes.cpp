@@ -99,7 +99,10 @@ Volumes differenceOf(const Solid& was, const Solid& is) {
 class Changer {
 public:
     Changer(Plan& plan, std::uint64_t seed)
-        : plan_(plan), seed_(seed), random_(mixBits(seed + 1)), isEdited_(plan.components.size(), 0) {}
+        : plan_(plan), seed_(seed), random_(mixBits(seed + 1)), isEdited_(plan.components.size(), 0) {
+        for (Component& component : plan.components)
+            if (component.kind == Kind::Element) component.isExternal = hasOuterFace(component);
+    }
 
     PlanChanges run() {
         const std::int64_t count = 1 + random_.below(4);
@@ -149,7 +152,7 @@ private:
         const std::string before(className(changed.kind)), name = changed.name;
         switch (edit) {
             case SampleEdit::Move: change.vector = move(changed); break;
-            case SampleEdit::Rotate: rotate(changed); break;
+            case SampleEdit::Rotate: change.quarterTurns = rotate(changed); break;
             case SampleEdit::Resize: resize(changed); break;
             case SampleEdit::Hole:
                 if (!cutHole(changed)) return false;
@@ -196,13 +199,15 @@ private:
         return vector;
     }
 
-    // A quarter turn about the centre of the plan of the component.
-    void rotate(Component& component) {
+    // A quarter turn about the centre of the plan of the component. Returns its sense.
+    int rotate(Component& component) {
         const Box3d before = boundsOf(component.solids[0]);
-        const Solid turned = placed(component.solids[0], random_.below(2) == 0 ? 1 : 3, {});
+        const int quarterTurns = random_.below(2) == 0 ? 1 : 3;
+        const Solid turned = placed(component.solids[0], quarterTurns, {});
         const Box3d after = boundsOf(turned);
         const Vec3d shift = (before.min + before.max - after.min - after.max) / 2.0;
         component.solids[0] = placed(turned, 0, {Length(shift.x), Length(shift.y), 0});
+        return quarterTurns == 1 ? 1 : -1;
     }
 
     // Moves the outermost planes at one side, and cuts that end there.

@@ -18,6 +18,7 @@ struct PlanChange {
     SampleEdit edit = SampleEdit::Move;
     std::optional<std::string> was, is;  ///< ids; empty: the component was duplicated or deleted
     Point vector{};                      ///< millimetres, of a move
+    int quarterTurns = 0;                ///< counter-clockwise seen from above, of a rotation: 1 or -1
     Length added = 0, removed = 0;       ///< cubic millimetres of the new shape outside of the old one, and the reverse
     std::pair<std::string, std::string> className{}, name{};  ///< old and new
 };

@@ -138,6 +138,7 @@ Result<SampleChanges> describeChanges(SampleKind kind, SampleFormat format, cons
         row.is = idOf(change.is);
         if (change.edit == SampleEdit::Move)
             row.vector = placed.placement.worldDirection(toDouble(change.vector)) / 1000.0;
+        if (change.edit == SampleEdit::Rotate) row.rotation = 90.0 * change.quarterTurns;
         row.added = double(change.added) * 1e-9;
         row.removed = double(change.removed) * 1e-9;
         row.className = change.className;

@@ -373,9 +373,7 @@ private:
                 .push_back(property(isCommon ? "LoadBearing" : attribute.name, attribute.value));
         }
         if (component.kind == Kind::Element)
-            common.push_back(property(
-                "IsExternal", std::any_of(component.shells.front().faces.begin(), component.shells.front().faces.end(),
-                                          [](const Face& face) { return face.neighbor < 0; })));
+            common.push_back(property("IsExternal", component.isExternal.value_or(hasOuterFace(component))));
         propertySet(c, "common", std::string(typeOf(component).propertySet), common);
         propertySet(c, "sample", "Sample", others);
         if (component.solids.empty()) return;

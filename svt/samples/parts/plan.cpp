@@ -128,6 +128,12 @@ std::string_view surfaceType(const Plan& plan, const Face& face) {
 
 std::span<const MaterialInfo> materials() { return kMaterials; }
 
+bool hasOuterFace(const Component& component) {
+    return !component.shells.empty() &&
+           std::any_of(component.shells.front().faces.begin(), component.shells.front().faces.end(),
+                       [](const Face& face) { return face.neighbor < 0; });
+}
+
 std::string_view className(Kind kind) {
     switch (kind) {
         case Kind::Element: return "BuildingConstructiveElement";

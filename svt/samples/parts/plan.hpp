@@ -79,11 +79,17 @@ struct Component {
     std::optional<Instance> instance;  ///< same shape as solids[0]; CityGML 2.0 and CityJSON write it as a template
     std::vector<Shell> shells;         ///< of `solids`, filled by resolve()
     double volume = 0;                 ///< m3, filled by resolve()
+    /// Whether the element has a side outside of the building; empty: hasOuterFace() tells. A hole to a cavity is an outer
+    /// face of a neighbour that stays inside.
+    std::optional<bool> isExternal;
 };
 
 /// True for components that fill the space of the building without overlap: elements, rooms, fillings.
 /// Furniture and installations are inside rooms; units contain rooms.
 [[nodiscard]] bool fillsSpace(const Component& component);
+
+/// Whether a face of the resolved component has no neighbour.
+[[nodiscard]] bool hasOuterFace(const Component& component);
 
 /// True for components that storeys and units list as members: those owned by the building, and installations in rooms.
 [[nodiscard]] bool isGrouped(const Component& component);

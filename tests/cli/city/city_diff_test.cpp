@@ -106,6 +106,34 @@ TEST_F(CityDiff, FindsEachChangeInTheTilesThatDiffer) {
     EXPECT_EQ(diff({"--json", "--threads", "1"}, 7).out, diff({"--json", "--threads", "2"}, 7).out);
 }
 
+// A row of 100 houses moves by 300 m, so each tile gives buildings to the next one, and all tiles are connected.
+TEST_F(CityDiff, FollowsBuildingsThroughManyTiles) {
+    for (std::size_t n = 0; n < boxes.size(); ++n) {
+        boxes[n].east = 390000 + 300 * int(n);
+        boxes[n].height = 10 + int(n) % 3;
+    }
+    make("old", boxes);
+    for (BoxBuilding& box : boxes) box.east += 300;
+    boxes[40].height = 15;
+    make("new", boxes);
+    const json report = json::parse(diff({"--json"}, 7).out);
+    EXPECT_GT(report["summary"]["apart"].get<int>(), 0);
+    EXPECT_EQ(report["rows"].size(), 100u);
+    for (const auto& [id, row] : rowsOf(report)) {
+        EXPECT_EQ(row["old"], json::array({id}));
+        EXPECT_EQ(row["new"], json::array({id}));
+        EXPECT_EQ(row["change"], id == "b40" ? "changed" : "moved") << row;
+        if (id != "b40") {
+            ASSERT_TRUE(row["vector"].is_array()) << row;
+            EXPECT_NEAR(row["vector"][0].get<double>(), 300, 0.02);
+        }
+    }
+    EXPECT_EQ(report["summary"]["changes"]["moved"], 99);
+    EXPECT_EQ(report["summary"]["changes"]["changed"], 1);
+    EXPECT_EQ(report["summary"]["groups"], json::parse(R"({"added": 0, "removed": 0})"));
+    EXPECT_NE(diff({}, 7).out.find("1 changed, 99 moved in "), std::string::npos);
+}
+
 TEST_F(CityDiff, RefusesWhatItCannotCompare) {
     boxes.resize(4);
     make("old", boxes);

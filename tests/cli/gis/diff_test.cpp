@@ -70,6 +70,29 @@ TEST_F(Diff, CountsANewStorey) {
     EXPECT_EQ(rooms, 20u);
 }
 
+// Each reason for the exit code is in the summary: the text and the JSON.
+TEST_F(Diff, SummaryAndExitCodeAgree) {
+    // A site without geometry, whose name says nothing of the boxes.
+    const auto modelWith = [](const std::string& site) {
+        std::string text = twoBoxes();
+        const std::string member = "<cityObjectMember><grp:CityObjectGroup gml:id=\"" + site + "\"><gml:name>" + site +
+                                   "</gml:name></grp:CityObjectGroup></cityObjectMember>";
+        const std::size_t end = text.rfind("</CityModel>");
+        EXPECT_NE(end, std::string::npos) << text;
+        return text.insert(end, member);
+    };
+    writeText(folder / "a.gml", modelWith("north"));
+    writeText(folder / "b.gml", modelWith("south"));
+    const CommandResult result = diff("a.gml", "b.gml");
+    EXPECT_EQ(result.exitCode, 7) << result.toString();
+    EXPECT_NE(result.out.find("2 same; without geometry: 1 removed, 1 added"), std::string::npos) << result.out;
+    const json summary = diff("a.gml", "b.gml", {"--json"}).json()["summary"];
+    EXPECT_TRUE(summary["different"].get<bool>());
+    EXPECT_EQ(summary["groups"], json::parse(R"({"same": 0, "added": 1, "removed": 1})"));
+    EXPECT_EQ(summary["properties"], json::parse(R"({"class": 0, "name": 0, "storey": 0, "attributes": 0})"));
+    EXPECT_EQ(summary["ambiguousGroups"], 0);
+}
+
 TEST_F(Diff, WritesTablesAndAVolume) {
     std::string other = twoBoxes();
     for (std::size_t at = 0; (at = other.find("right", at)) != std::string::npos;) other.replace(at, 5, "other");
@@ -79,6 +102,7 @@ TEST_F(Diff, WritesTablesAndAVolume) {
                                                         "-o", "d.json", "-o", "d.svt"});
     EXPECT_EQ(result.exitCode, 0) << result.err;  // other ids are not a difference
     EXPECT_NE(readText(folder / "d.csv").find("same"), std::string::npos);
+    EXPECT_NE(readText(folder / "d.csv").find("vectorZ,rotation,added"), std::string::npos);
     const json written = json::parse(readText(folder / "d.json"));
     EXPECT_EQ(written["summary"]["changes"]["same"], 2);
     EXPECT_FALSE(written["summary"]["different"].get<bool>());
@@ -112,6 +136,13 @@ TEST_F(Diff, AlignsShiftedModels) {
     EXPECT_EQ(apart.exitCode, 7);
     EXPECT_NE(apart.err.find("do not overlap in space"), std::string::npos) << apart.err;
     EXPECT_NE(apart.out.find("3 moved"), std::string::npos) << apart.out;
+    // 3000 km apart, so that no volume has both. Rows need none.
+    writeText(folder / "far.gml", modelAt(3500000, 5400000, 100));
+    const CommandResult far = diff("a.gml", "far.gml", {"-o", "d.svt"});
+    EXPECT_EQ(far.exitCode, 2) << far.toString();
+    EXPECT_NE(far.err.find("use --align translation"), std::string::npos) << far.err;
+    EXPECT_EQ(diff("a.gml", "far.gml").exitCode, 7);
+    EXPECT_EQ(diff("a.gml", "far.gml", {"--align", "translation", "-o", "d.svt"}).exitCode, 0);
     const CommandResult aligned = diff("a.gml", "b.gml", {"--align", "translation"});
     EXPECT_EQ(aligned.exitCode, 0) << aligned.out;
     EXPECT_NE(aligned.err.find("is moved by -30.0300, "), std::string::npos) << aligned.err;

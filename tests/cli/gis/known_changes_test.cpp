@@ -5,6 +5,7 @@
 
 #include <svt/core/temporary_folder_test.hpp>
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -56,6 +57,11 @@ void expectRow(const json& known, const json& row, const std::string& where) {
     ASSERT_EQ(row["vector"].is_null(), known["vector"].is_null()) << where;
     for (std::size_t axis = 0; axis < known["vector"].size(); ++axis)
         EXPECT_NEAR(row["vector"][axis].get<double>(), known["vector"][axis].get<double>(), 1e-5) << where;
+    ASSERT_EQ(row["rotation"].is_null(), known["rotation"].is_null()) << where;
+    // A shape that half a turn makes of itself has a quarter turn in both senses.
+    if (!known["rotation"].is_null()) {
+        EXPECT_NEAR(std::abs(row["rotation"].get<double>()), 90, 0.01) << where;
+    }
     for (const auto& [key, values] : known["properties"].items())
         EXPECT_EQ(row["properties"].value(key, json()), values) << where;
 }
