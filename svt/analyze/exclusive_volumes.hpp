@@ -13,8 +13,10 @@
 namespace svt::analyze {
 
 /// ownMeasures() with exact volumes where meshes give them. A label with a closed mesh has the volume of its mesh without
-/// the space that other labels have, however thin. If more than kMostClaims labels have one place, if a label with space
-/// in the mesh has no closed mesh, or if the work does not suffice, the volume stays that of ownMeasures().
+/// the space that other labels have, however thin. Where three or more labels have one place, convex cells of meshes of up
+/// to 256 triangles give the volume; of larger ones, or of meshes that cover themselves, at most kMostClaims labels do.
+/// If a label with space in the mesh has no closed mesh, or if the work does not suffice, the volume stays that of
+/// ownMeasures().
 /// Measure::countedVolume is 0 for exact volumes. A hull and the bodies in it (volume::Filling::Body) have an exact sum, which
 /// their voxels divide.
 /// \param work  maximum number of steps, see SolidOverlapOptions

@@ -1,15 +1,18 @@
 #include <svt/analyze/exclusive_volumes.hpp>
 
 #include <svt/analyze/overlaps/common_volume_of_all.hpp>
+#include <svt/analyze/overlaps/convex_cells.hpp>
 #include <svt/analyze/overlaps/exclusive_parts.hpp>
 #include <svt/analyze/overlaps/solid_clips.hpp>
 #include <svt/analyze/solid_overlaps.hpp>
 #include <svt/model/classes.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <unordered_set>
@@ -28,6 +31,16 @@ double meshVolume(const MeshSolid& solid, const volume::VectorParts& parts) {
         sum += dot(a, cross(b, c));
     }
     return sum / 6;
+}
+
+// The triangles of a closed mesh, as corners.
+std::vector<std::array<Vec3d, 3>> meshCorners(const MeshSolid& solid, const volume::VectorParts& parts) {
+    std::vector<std::array<Vec3d, 3>> corners;
+    corners.reserve(solid.triangles.size());
+    for (const auto& triangle : solid.triangles)
+        corners.push_back({parts.position(triangle.corners[0], {}), parts.position(triangle.corners[1], {}),
+                           parts.position(triangle.corners[2], {})});
+    return corners;
 }
 
 class ExclusiveVolumes {
@@ -150,8 +163,42 @@ private:
             setVolume(measures[label], volume * double(measures[label].voxels) / voxels, true);
     }
 
-    // The volume of a mesh, less that of its places in other labels, by inclusion and exclusion.
+    // Whether a place may belong to three solids: two that have space of this one overlap.
+    [[nodiscard]] bool hasSharedPlaces(std::size_t solid) const {
+        const auto& winners = winners_[solid];
+        for (std::size_t n = 0; n < winners.size(); ++n)
+            for (std::size_t m = n + 1; m < winners.size(); ++m)
+                if (pairs_.contains(keyOf(solids_[winners[n]].label, solids_[winners[m]].label))) return true;
+        return false;
+    }
+
+    // The cells of a solid, found once; null if it cannot be divided.
+    const std::vector<ConvexCell>* cellsOf(std::size_t solid) {
+        constexpr std::size_t kMostFaces = 256;  // of meshes that are divided
+        const auto [at, isNew] = cells_.try_emplace(solid);
+        if (isNew && solids_[solid].triangles.size() <= kMostFaces)
+            at->second = convexCells(meshCorners(solids_[solid], volume_.vectors),
+                                     meshVolume(solids_[solid], volume_.vectors), work_);
+        return at->second ? &*at->second : nullptr;
+    }
+
+    // The volume of the places of a solid that other labels have, from convex cells.
+    std::optional<double> lostInCells(std::size_t solid) {
+        const std::vector<ConvexCell>* own = cellsOf(solid);
+        if (own == nullptr) return std::nullopt;
+        std::vector<const std::vector<ConvexCell>*> others;
+        for (const std::size_t winner : winners_[solid]) {
+            others.push_back(cellsOf(winner));
+            if (others.back() == nullptr) return std::nullopt;
+        }
+        return volumeWithin(*own, others, work_);
+    }
+
+    // The volume of a mesh, less that of its places in other labels: by cells where three solids meet, else by inclusion
+    // and exclusion.
     std::optional<double> exclusiveVolume(std::size_t solid) {
+        if (hasSharedPlaces(solid))
+            if (const auto lost = lostInCells(solid)) return meshVolume(solids_[solid], volume_.vectors) - *lost;
         isComplete_ = true;
         claims_ = {solid};
         const double lost = winners_[solid].empty() ? 0 : lostVolume(winners_[solid], solids_[solid].box);
@@ -223,10 +270,11 @@ private:
     const volume::SemanticVolume& volume_;
     std::vector<MeshSolid> solids_;
     std::uint64_t work_;
-    std::vector<std::size_t> solidOf_;                  // by label
-    std::vector<std::vector<std::size_t>> winners_;     // by solid: those that have space of it
-    std::unordered_set<std::uint64_t> pairs_;           // of labels whose solids overlap
-    std::vector<std::vector<std::uint32_t>> bodiesOf_;  // by solid: labels of its material
+    std::vector<std::size_t> solidOf_;                                     // by label
+    std::vector<std::vector<std::size_t>> winners_;                        // by solid: those that have space of it
+    std::unordered_set<std::uint64_t> pairs_;                              // of labels whose solids overlap
+    std::vector<std::vector<std::uint32_t>> bodiesOf_;                     // by solid: labels of its material
+    std::map<std::size_t, std::optional<std::vector<ConvexCell>>> cells_;  // by solid
     std::vector<std::size_t> claims_;
     bool isComplete_ = true;
     const MeshSolid* clip_ = nullptr;                 // joins claims_, if any

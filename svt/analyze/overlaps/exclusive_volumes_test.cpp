@@ -3,16 +3,21 @@
 
 #include <svt/analyze/exclusive_volumes.hpp>
 #include <svt/analyze/overlaps/common_volume_of_all.hpp>
+#include <svt/analyze/overlaps/convex_cells.hpp>
 #include <svt/analyze/overlaps/solid_clips.hpp>
 #include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace svt::analyze {
 namespace {
@@ -152,6 +157,115 @@ TEST(CommonVolumeOfAll, EndsWithItsWork) {
     EXPECT_LT(work, 100000u);
     work = 5;
     EXPECT_FALSE(commonVolumeOfAll(roofs, 0, work));
+}
+
+using Corners = std::vector<std::array<Vec3d, 3>>;
+
+// A square tube around an axis: 0.2 m wide, with walls of 6 mm, 2 m long. Turned about z, then about x.
+Corners tube(double turn, double tilt) {
+    std::vector<Vec3d> corners;
+    for (const double y : {-1.0, 1.0})
+        for (const double half : {0.1, 0.094})
+            for (const auto& [x, z] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+                const Vec3d p{x * half, y, z * half};
+                const Vec3d q{p.x * std::cos(turn) - p.y * std::sin(turn), p.x * std::sin(turn) + p.y * std::cos(turn),
+                              p.z};
+                corners.push_back({q.x + 1.5, q.y * std::cos(tilt) - q.z * std::sin(tilt) + 1.5,
+                                   q.y * std::sin(tilt) + q.z * std::cos(tilt) + 1.5});
+            }
+    Corners triangles;
+    const auto addQuad = [&](int a, int b, int c, int d) {
+        const auto at = [&](int n) { return corners[std::size_t(n)]; };
+        triangles.push_back({at(a), at(c), at(b)});
+        triangles.push_back({at(a), at(d), at(c)});
+    };
+    for (int n = 0; n < 4; ++n) {
+        const int m = (n + 1) % 4;
+        addQuad(n, m, 8 + m, 8 + n);            // outside
+        addQuad(4 + m, 4 + n, 12 + n, 12 + m);  // inside
+        addQuad(m, n, 4 + n, 4 + m);            // the ends
+        addQuad(8 + n, 8 + m, 12 + m, 12 + n);
+    }
+    return triangles;
+}
+
+double volumeOfMesh(const Corners& triangles) {
+    double sum = 0;
+    for (const auto& [a, b, c] : triangles) sum += dot(a, cross(b, c)) / 6;
+    return sum;
+}
+
+// Whether a point lies in a tube: how often the mesh is above it.
+bool isIn(const Corners& triangles, Vec3d p) {
+    int above = 0;
+    for (const auto& [a, b, c] : triangles) {
+        const auto sideOf = [&p](Vec3d q, Vec3d r) { return (r.x - q.x) * (p.y - q.y) - (r.y - q.y) * (p.x - q.x); };
+        const double ab = sideOf(a, b), bc = sideOf(b, c), ca = sideOf(c, a);
+        if (!((ab > 0 && bc > 0 && ca > 0) || (ab < 0 && bc < 0 && ca < 0))) continue;
+        const double z = (a.z * bc + b.z * ca + c.z * ab) / (ab + bc + ca);
+        if (z > p.z) above += ab > 0 ? 1 : -1;
+    }
+    return above != 0;
+}
+
+// Six tubes at one node: what is left of one without the others, by cells and by points.
+TEST(ConvexCells, LeaveWhatOtherTubesDoNotHave) {
+    std::vector<Corners> tubes;
+    std::vector<std::vector<ConvexCell>> cells;
+    std::uint64_t work = std::uint64_t{1} << 30U;
+    for (int n = 0; n < 6; ++n) {
+        tubes.push_back(tube(0.5 * n, 0.1 * n));
+        EXPECT_NEAR(volumeOfMesh(tubes.back()), (0.2 * 0.2 - 0.188 * 0.188) * 2, 1e-9);
+        auto found = convexCells(tubes.back(), volumeOfMesh(tubes.back()), work);
+        ASSERT_TRUE(found);
+        cells.push_back(std::move(*found));
+    }
+    std::vector<const std::vector<ConvexCell>*> others;
+    for (std::size_t n = 1; n < cells.size(); ++n) others.push_back(&cells[n]);
+    const auto lost = volumeWithin(cells[0], others, work);
+    ASSERT_TRUE(lost);
+    const auto twoLost = volumeWithin(cells[0], std::span(others).first(1), work);
+    ASSERT_TRUE(twoLost);
+    EXPECT_LT(*twoLost, *lost);
+    double sum = 0;
+    constexpr int kAlong = 500, kAcross = 100;
+    for (const auto& cell : cells[0]) {
+        ASSERT_GT(volumeOf(cell), 0);
+        sum += volumeOf(cell);
+    }
+    EXPECT_NEAR(sum, volumeOfMesh(tubes[0]), 1e-9);
+    double counted = 0;
+    for (int j = 0; j < kAlong; ++j)
+        for (int i = 0; i < kAcross; ++i)
+            for (int k = 0; k < kAcross; ++k) {
+                // The first tube lies along y; only its walls are asked.
+                const Vec3d p{1.4 + 0.2 * (i + 0.5) / kAcross, 0.5 + 2.0 * (j + 0.5) / kAlong,
+                              1.4 + 0.2 * (k + 0.5) / kAcross};
+                if (std::max(std::abs(p.x - 1.5), std::abs(p.z - 1.5)) < 0.094) continue;
+                const bool isLost =
+                    std::any_of(tubes.begin() + 1, tubes.end(), [&p](const Corners& other) { return isIn(other, p); });
+                if (isLost) counted += 2.0 / kAlong * 0.2 / kAcross * 0.2 / kAcross;
+            }
+    EXPECT_NEAR(*lost, counted, 0.01 * counted);
+}
+
+TEST(ConvexCells, GiveUpOnOpenMeshesAndWithoutWork) {
+    Corners open = tube(0, 0);
+    const double volume = volumeOfMesh(open);
+    std::uint64_t none = 10;
+    EXPECT_FALSE(convexCells(open, volume, none));
+    open.resize(20);
+    std::uint64_t work = 1000000;
+    EXPECT_FALSE(convexCells(open, volume, work));
+}
+
+// Forty boxes share one place: more than inclusion and exclusion can do.
+TEST(ExclusiveVolumes, OfManyBoxesAtOnePlaceAreExact) {
+    volume::SemanticVolume volume = volume::test::emptyVolume({3, 3, 3}, {1, 1, 1});
+    for (int n = 0; n < 40; ++n) addSolid(volume, std::to_string(100 + n), {0, 0, 0}, {1 + 0.01 * n, 1, 1});
+    const auto measures = exclusiveMeasures(volume);
+    EXPECT_NEAR(sumOf(measures), 1.39, 1e-4);
+    for (const Measure& measure : measures) EXPECT_EQ(measure.countedVolume, 0);
 }
 
 TEST(FinestFeatures, AreThoseThatContainNoOther) {

