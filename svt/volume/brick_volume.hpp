@@ -338,12 +338,22 @@ private:
 
     static constexpr std::array<std::uint64_t, 8> kNoVoxels{};
 
+    // The mask of a brick with several scalars. Each scalar costs the words of all bit planes, so the fewer ones are
+    // combined: those accepted, or those refused. Mostly only air is refused.
     template <class Accepts>
     void combineMask(const PaletteBrick& brick, const Accepts& accepts, MaskWords& mask) const {
+        MaskWords accepted{};  // bit e: palette entry e
+        std::uint32_t count = 0;
+        for (std::uint32_t e = 0; e < brick.paletteSize; ++e)
+            if (accepts(palettes_[brick.palette + e])) {
+                accepted[e / 64] |= std::uint64_t{1} << (e % 64);
+                ++count;
+            }
+        const bool areRefused = 2 * count > brick.paletteSize;
         const std::uint64_t* words = bitPlanes_.data() + brick.bitPlanes;
         mask.fill(0);
         for (std::uint32_t e = 0; e < brick.paletteSize; ++e) {
-            if (!accepts(palettes_[brick.palette + e])) continue;
+            if (((accepted[e / 64] >> (e % 64)) & 1u) == (areRefused ? 1u : 0u)) continue;
             for (std::size_t k = 0; k < 8; ++k) {
                 std::uint64_t equal = ~std::uint64_t{0};
                 for (std::uint32_t plane = 0; plane < brick.bitPlaneCount; ++plane) {
@@ -353,6 +363,8 @@ private:
                 mask[k] |= equal;
             }
         }
+        if (areRefused)
+            for (std::uint64_t& word : mask) word = ~word;
     }
 
     // Words of a cluster's list before the places of entries, and before the entries.

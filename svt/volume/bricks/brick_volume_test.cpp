@@ -247,14 +247,17 @@ TEST(BrickVolume, DoesNotDependOnTheThreads) {
 TEST(BrickVolume, VoxelMaskShowsTheVoxelsOfASelection) {
     const Vec3i n{8, 8, 8};
     std::mt19937 random(3);
-    const auto scalars = dense(n, [&](auto, auto, auto) { return Scalar(random() % 11); });
-    const BrickVolume bricks = bricksOf(n, scalars);
-    const std::set<Scalar> wanted{2, 3, 10};
     BrickVolume::MaskWords scratch;
-    const auto mask = bricks.voxelMask(
-        bricks.entry(0, 0, 0), [&](Scalar s) { return wanted.count(s) != 0; }, scratch);
-    for (std::size_t at = 0; at < 512; ++at)
-        EXPECT_EQ((mask.word(at / 64) >> (at % 64)) & 1u, wanted.count(scalars[at])) << at;
+    for (const Scalar labels : {11u, 200u}) {
+        const auto scalars = dense(n, [&](auto, auto, auto) { return Scalar(random() % labels); });
+        const BrickVolume bricks = bricksOf(n, scalars);
+        for (const Scalar accepted : {0u, 1u, 5u, 10u, 64u, 150u, 199u, 200u}) {
+            const auto isWanted = [&](Scalar s) { return (s * 7) % labels < accepted; };
+            const auto mask = bricks.voxelMask(bricks.entry(0, 0, 0), isWanted, scratch);
+            for (std::size_t at = 0; at < 512; ++at)
+                ASSERT_EQ((mask.word(at / 64) >> (at % 64)) & 1u, isWanted(scalars[at])) << accepted << " " << at;
+        }
+    }
     const BrickVolume one = bricksOf(n, std::vector<Scalar>(512, 2));
     EXPECT_EQ(one.voxelMask(
                      one.entry(0, 0, 0), [](Scalar s) { return s == 2; }, scratch)
