@@ -83,12 +83,22 @@ struct MeshTracer::State {
 
     void findSurfaces(const volume::LabelTable& table);
     [[nodiscard]] std::vector<Crossing> crossings(Vec3d origin, Vec3d direction) const;
+    /// The first of `crossings` and those that tie with it; `inside` then has crossed their solids.
+    std::span<const Crossing> crossTies(std::span<const Crossing> crossings, double tie, InsideSet& inside) const;
     [[nodiscard]] std::vector<volume::Scalar> scalarsOf(std::uint32_t owner, Vec3d point, bool isOutside) const;
     /// Surfaces without inside own the side behind their face: those of higher priority than the object there.
     [[nodiscard]] std::vector<const Crossing*> sheetsAmong(std::span<const Crossing> crossings,
                                                            std::optional<std::uint32_t> topBefore,
                                                            std::optional<std::uint32_t> topAfter) const;
 };
+
+std::span<const Crossing> MeshTracer::State::crossTies(std::span<const Crossing> crossings, double tie,
+                                                       InsideSet& inside) const {
+    std::size_t count = 0;
+    for (; count < crossings.size() && crossings[count].depth - crossings.front().depth <= tie; ++count)
+        if (meshes.objects[crossings[count].object].isSolid()) inside.cross(crossings[count]);
+    return crossings.first(count);
+}
 
 std::vector<const Crossing*> MeshTracer::State::sheetsAmong(std::span<const Crossing> crossings,
                                                             std::optional<std::uint32_t> topBefore,
@@ -260,14 +270,9 @@ SeenSurface MeshTracer::trace(const render::ViewRay& ray, const std::optional<re
             showStart();
         }
         const auto topBefore = inside.top(state.keys());
-        std::size_t end = first;
-        while (end < all.size() && all[end].depth - depth <= tie) {
-            if (state.meshes.objects[all[end].object].isSolid()) inside.cross(all[end]);
-            ++end;
-        }
+        const std::span<const Crossing> here = state.crossTies(std::span(all).subspan(first), tie, inside);
+        first += here.size();
         const auto topAfter = inside.top(state.keys());
-        const std::span<const Crossing> here = std::span(all).subspan(first, end - first);
-        first = end;
         if (isFound || depth <= part.from || depth >= part.to) continue;
         const std::vector<const Crossing*> sheets = state.sheetsAmong(here, topBefore, topAfter);
         if (!sheets.empty()) {

@@ -226,8 +226,8 @@ struct TagBlock {
     }
     // The lower left corner of a tag.
     [[nodiscard]] PlanePoint tagAt(PlanePoint low, std::size_t n) const noexcept {
-        return {low.u + kTagSide * double(n % kTagsPerRow),
-                low.v + height - 0.87 * kTagSide * double(n / kTagsPerRow + 1)};
+        const std::size_t row = n / kTagsPerRow + 1;
+        return {low.u + kTagSide * double(n % kTagsPerRow), low.v + height - 0.87 * kTagSide * double(row)};
     }
 };
 
