@@ -214,6 +214,8 @@ std::string propertiesIn(Session& session, std::uint32_t index, Vec3d by) {
                 json["numbers"][only->name] = {{"value", *number}, {"unit", only->unit}};
     json["voxelVolume"] = double(measure.own.voxels) * volume.grid.voxelVolume();
     json["modelVolume"] = isClosed ? Json(found->volume) : Json(nullptr);
+    const std::vector<double>& floors = session.floorAreas();
+    json["floorArea"] = index < floors.size() && floors[index] > 0 ? Json(floors[index]) : Json(nullptr);
     json["surface"] = measure.own.area;
     json["totalVolume"] = measure.total.volume ? Json(*measure.total.volume) : Json(nullptr);
     json["totalSurface"] = measure.total.area;

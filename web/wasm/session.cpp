@@ -313,4 +313,12 @@ const std::vector<analyze::Measure>& Session::measures() {
     return *measures_;
 }
 
+const std::vector<double>& Session::floorAreas() {
+    if (!floorAreas_) {
+        auto areas = illustrate::areasFor("area", volume_);
+        floorAreas_ = areas ? std::move(*areas) : std::vector<double>();
+    }
+    return *floorAreas_;
+}
+
 }  // namespace svt::web

@@ -109,6 +109,8 @@ public:
     /// Contacts between features; computed on first use.
     [[nodiscard]] const std::vector<analyze::Contact>& contacts();
     [[nodiscard]] const std::vector<analyze::Measure>& measures();
+    /// Floor areas of rooms by label, m2, 0 for other labels; empty if the model has no levels. Computed on first use.
+    [[nodiscard]] const std::vector<double>& floorAreas();
 
 private:
     Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findings);
@@ -135,6 +137,7 @@ private:
     std::vector<std::uint32_t> labelOfScalar_;
     std::optional<std::vector<analyze::Contact>> contacts_;
     std::optional<std::vector<analyze::Measure>> measures_;
+    std::optional<std::vector<double>> floorAreas_;
 };
 
 }  // namespace svt::web

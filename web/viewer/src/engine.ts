@@ -104,7 +104,9 @@ export interface FeatureProperties {
   /** From voxels, m3; the model's own volume if its solid is closed. */
   voxelVolume: number;
   modelVolume: number | null;
-  /** m2. */
+  /** Floor area of a room, m2; null: not a room, or the model has no levels. */
+  floorArea: number | null;
+  /** By voxels, m2. */
   surface: number;
   /** Volume and surface of the feature with its parts: a flat with its rooms. */
   totalVolume: number | null;

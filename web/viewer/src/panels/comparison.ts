@@ -46,7 +46,8 @@ export function comparisonRows(pair: readonly [FeatureProperties, FeaturePropert
   const names = [...new Set(pair.flatMap((p) => Object.keys(p.attributes)))];
   return [
     { name: t("key_class"), values: [a.class, b.class], difference: "" },
-    measured(t("volumeByVoxels"), [volumeOf(a), volumeOf(b)], 3, "m³"),
+    measured(t("key_volume"), [volumeOf(a), volumeOf(b)], 3, "m³"),
+    ...(a.floorArea !== null || b.floorArea !== null ? [measured(t("floorArea"), [a.floorArea, b.floorArea], 2, "m²")] : []),
     measured(t("surface"), [a.totalSurface || null, b.totalSurface || null], 2, "m²"),
     ...[0, 1, 2].map(extent),
     ...names.map((name) => attribute(name, pair)),

@@ -20,6 +20,7 @@ export class PropertiesPanel extends Part {
       :is(.path, .head, h2):first-child { padding-right: var(--sheet-close, 0); }
       dl { display: grid; grid-template-columns: auto 1fr; gap: 4px 12px; margin: 10px 0 0; }
       dt { color: var(--quiet); }
+      dd small { display: block; color: var(--quiet); font-size: 11px; }
       dd { margin: 0; text-align: right; font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
       ul { list-style: none; margin: 0; padding: 0; }
       li button { width: 100%; justify-content: space-between; gap: 10px; border-color: transparent; background: transparent; min-height: 30px; padding: 3px 6px; text-align: left; }
@@ -112,8 +113,8 @@ export class PropertiesPanel extends Part {
       <dl>
         ${isGroup && p.totalVolume !== null ? html`<dt>${t("totalVolume")}</dt><dd id="total-volume">${number(p.totalVolume, 3)} m³</dd>` : nothing}
         ${isGroup && hasParts ? html`<dt>${t("totalSurface")}</dt><dd>${number(p.totalSurface, 2)} m²</dd>` : nothing}
-        ${p.voxelVolume > 0 && !isGroup ? html`<dt>${t("volumeByVoxels")}</dt><dd>${number(p.voxelVolume, 3)} m³</dd>` : nothing}
-        ${p.modelVolume !== null ? html`<dt>${t("modelVolume")}</dt><dd>${number(p.modelVolume, 3)} m³</dd>` : nothing}
+        ${isGroup ? nothing : this.volume(p)}
+        ${p.floorArea !== null ? html`<dt>${t("floorArea")}</dt><dd id="floor-area">${this.floorArea(p.floorArea)}</dd>` : nothing}
         ${p.surface > 0 && !isGroup ? html`<dt>${t("surface")}</dt><dd>${number(p.surface, 2)} m²</dd>` : nothing}
         ${hasParts && !isGroup && p.totalVolume !== null ? html`<dt>${t("totalVolume")}</dt><dd>${number(p.totalVolume, 3)} m³</dd>` : nothing}
         ${hasParts && !isGroup ? html`<dt>${t("totalSurface")}</dt><dd>${number(p.totalSurface, 2)} m²</dd>` : nothing}
@@ -131,6 +132,19 @@ export class PropertiesPanel extends Part {
           : nothing
       }
     `;
+  }
+
+  /** The volume of a closed mesh. Below, or if the mesh is open, that of the voxels: half a voxel along the surface is its bound. */
+  private volume({ modelVolume, voxelVolume, surface }: FeatureProperties) {
+    const spacing = Math.max(...(this.session.volume.info?.spacing ?? [0]));
+    const voxels = voxelVolume > 0 ? t("byVoxels", { value: `${number(voxelVolume, 3)} ± ${number((surface * spacing) / 2, 3)} m³` }) : "";
+    if (modelVolume === null) return voxels ? html`<dt>${t("key_volume")}</dt><dd id="volume">${voxels}</dd>` : nothing;
+    return html`<dt>${t("key_volume")}</dt><dd id="volume">${number(modelVolume, 3)} m³${voxels ? html`<small>${voxels}</small>` : nothing}</dd>`;
+  }
+
+  private floorArea(area: number): string {
+    const value = `${number(area, 2)} m²`;
+    return this.session.volume.info?.hasMeshes ? value : t("byVoxels", { value });
   }
 
   private several(n: number) {
