@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from .volume import Volume
 
 #: Files of a published page that one without a server does not use: threads need headers of the server, the compressed
-#: copies need its content encoding, and the comparison of two files would add a third to the size.
+#: copies need its content encoding, and comparisons and quantities would add a third to the size.
 _UNUSED = re.compile(
-    r"index\.html|preview\.png|sbom\.cdx\.json|languages/template\.json|.*_threads.*|.*svt_compare.*|.*\.(br|gz)"
+    r"index\.html|preview\.png|sbom\.cdx\.json|languages/template\.json|.*_threads.*|.*svt_reports.*|.*\.(br|gz)"
 )
 
 

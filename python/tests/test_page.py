@@ -40,7 +40,7 @@ def published():
         "assets/svt_threads-3.wasm": "threads",
         "assets/svt_view_threads-3.js": "threads",
         "assets/svt-4.wasm": "wasm",
-        "assets/svt_compare-5.wasm": "comparison",
+        "assets/svt_reports-5.wasm": "comparison",
         "assets/svt-4.wasm.br": "brotli",
         "assets/svt-4.wasm.gz": "gzip",
         "models.json": '{"models": []}',

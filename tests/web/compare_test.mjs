@@ -10,12 +10,12 @@ import { after, test } from "node:test";
 import { pathToFileURL } from "node:url";
 
 const [command, moduleFolder] = process.argv.slice(2).map((path) => resolve(path));
-if (!existsSync(join(moduleFolder, "svt_compare.js"))) {
+if (!existsSync(join(moduleFolder, "svt_reports.js"))) {
   console.log(`no module at ${moduleFolder}; 'make web' builds it`);
   process.exit(77);
 }
 // What the module asks of a browser.
-Object.assign(globalThis, { self: { location: { href: pathToFileURL(join(moduleFolder, "svt_compare.js")).href } } });
+Object.assign(globalThis, { self: { location: { href: pathToFileURL(join(moduleFolder, "svt_reports.js")).href } } });
 const { default: createSvt } = await import(self.location.href);
 
 const folder = mkdtempSync(join(tmpdir(), "svt-compare-"));
@@ -25,7 +25,7 @@ const run = (...args) => execFileSync(command, args, { stdio: ["ignore", "pipe",
 
 const steps = [];
 const svt = await createSvt({
-  wasmBinary: readFileSync(join(moduleFolder, "svt_compare.wasm")),
+  wasmBinary: readFileSync(join(moduleFolder, "svt_reports.wasm")),
   onProgress: (step, done) => steps.push([step, done]),
 });
 const ask = (name) => JSON.parse(new TextDecoder().decode(svt.call(name, [])));

@@ -4,6 +4,8 @@ import { defineConfig } from "vite";
 import { billOfMaterialsPlugin } from "./sbom_plugin";
 import { basemapTemplate } from "./src/basemap/texts";
 import { compareTemplate } from "./src/comparing/texts";
+import { quantityTemplate } from "./src/quantities/texts";
+import { fileTemplate } from "./src/reports/files";
 import { template } from "./src/texts";
 import { lateTemplate } from "./src/late_texts";
 import { toolTemplate } from "./src/tool_texts";
@@ -39,7 +41,7 @@ export default defineConfig({
         this.emitFile({
           type: "asset",
           fileName: "languages/template.json",
-          source: `${JSON.stringify({ texts: { ...template(), ...toolTemplate(), ...lateTemplate(), ...compareTemplate(), ...basemapTemplate() }, classes: {} }, null, 1)}\n`,
+          source: `${JSON.stringify({ texts: { ...template(), ...toolTemplate(), ...lateTemplate(), ...compareTemplate(), ...fileTemplate(), ...quantityTemplate(), ...basemapTemplate() }, classes: {} }, null, 1)}\n`,
         });
       },
     },

@@ -2,7 +2,7 @@
 /// \file
 /// A call of the module: arguments in, a reply or an error out.
 
-#include "font.hpp"
+#include "font/font.hpp"
 #include "session.hpp"
 
 #include <svt/core/progress.hpp>

@@ -1,14 +1,10 @@
-// The module that compares two states of a building: files in; rows, and a volume of the difference out. It is fetched
-// only for a comparison, and runs in a worker of its own.
-#include "calls.hpp"
+// Compares two states of a building: files in; rows, and a volume of the difference out.
+#include "reports.hpp"
 
 #include <svt/compare/compared.hpp>
 #include <svt/compare/difference_volume.hpp>
-#include <svt/core/diagnostics.hpp>
 #include <svt/frontend/comparison_json.hpp>
 #include <svt/image/color_text.hpp>
-#include <svt/pipeline/build_volume.hpp>
-#include <svt/readers/model_joiner.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <nlohmann/json.hpp>
@@ -20,8 +16,6 @@
 
 namespace svt::web {
 namespace {
-
-using Files = std::vector<NamedBytes>;
 
 // Two states and their comparison, which refers to them.
 struct Comparing {
@@ -40,32 +34,6 @@ struct Wish {
     std::uint64_t memoryBytes = 0;  // limit of each volume without a given spacing; 0: as for `svt diff`
 };
 
-bool isVolume(const Files& files) {
-    return std::any_of(files.begin(), files.end(),
-                       [](const NamedBytes& file) { return volume::looksLikeSvt(file.bytes); });
-}
-
-// A state with meshes. Models are built on the sample positions of `grid`, if there is one, as by `svt diff`.
-Result<volume::SemanticVolume> readState(const Files& files, const Wish& wish, const volume::Grid* grid,
-                                         const Progress& progress, Diagnostics& findings) {
-    if (isVolume(files)) {
-        if (files.size() > 1)
-            return Error(Code::BadArgument, "a state is one volume (.svt), or one or several models; give one volume");
-        return volume::readSvt(files.front().bytes, files.front().name);
-    }
-    readers::ReadOptions reading;
-    reading.progress = &progress;
-    SVT_TRY(model, readers::readModels(files, reading, &findings));
-    pipeline::BuildOptions building;
-    building.vectors.meshes = true;
-    building.progress = &progress;
-    if (wish.memoryBytes != 0) building.memoryBytes = std::min(building.memoryBytes, wish.memoryBytes);
-    if (grid != nullptr) building.grid = *grid;
-    building.extendsGrid = grid != nullptr;
-    SVT_TRY(output, pipeline::buildVolume(*model, building, &findings));
-    return std::move(output->volume);
-}
-
 // Moves the new state to the old one; a model is built again, so that its samples coincide after the move. Returns how
 // it ended: "moved", "aligned" (no translation is necessary) or "notFound".
 Result<std::string_view> alignStates(Comparing& states, const Files& files, const Wish& wish, const Progress& progress,
@@ -77,7 +45,7 @@ Result<std::string_view> alignStates(Comparing& states, const Files& files, cons
         const volume::Grid& grid = states.was.grid;
         SVT_TRY(shifted,
                 volume::Grid::fromParts(grid.dimension(), grid.spacing(), grid.origin() + *offset, grid.axes()));
-        SVT_TRY(again, readState(files, wish, &*shifted, progress, findings));
+        SVT_TRY(again, readVolume(files, wish.memoryBytes, &*shifted, progress, findings));
         states.is = std::move(*again);
     }
     SVT_TRY(moved, compare::translated(states.is, -*offset));
@@ -128,9 +96,7 @@ std::string reportOf(const Comparing& states, std::string_view aligned, const Di
         const auto change = static_cast<compare::Change>(n);
         report["colors"][std::string(nameOf(change))] = image::colorText(compare::colorOfChange(change));
     }
-    Json& list = report["findings"] = Json::array();
-    for (const Diagnostic& finding : findings.items())
-        if (finding.severity != Severity::Note) list.push_back(finding.toString());
+    report["findings"] = findingsJson(findings);
     return report.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -142,13 +108,8 @@ Result<Reply> compareFiles(const Arguments& arguments) {
     std::array<Files, 2> files;
     std::size_t at = 0;
     for (std::size_t state = 0; state < 2; ++state) {
-        const Json &names = arguments.at(0).at(state), &sizes = arguments.at(1).at(state);
-        for (std::size_t n = 0; n < names.size(); ++n) {
-            const auto size = sizes.at(n).get<std::size_t>();
-            files[state].push_back({names.at(n).get<std::string>(), arguments.bytes().subspan(at, size)});
-            at += size;
-        }
-        if (files[state].empty()) return Error(Code::BadArgument, "a state has no file");
+        SVT_TRY(given, filesOf(arguments.at(0).at(state), arguments.at(1).at(state), arguments.bytes(), at));
+        files[state] = std::move(*given);
     }
     SVT_TRY(wish, wishOf(arguments.at(2)));
     const Progress progress = progressOfPage();
@@ -156,8 +117,8 @@ Result<Reply> compareFiles(const Arguments& arguments) {
     auto states = std::make_unique<Comparing>();
     // The samples of a volume count, else those of the old state.
     const bool isNewFirst = isVolume(files[1]) && !isVolume(files[0]);
-    SVT_TRY(one, readState(files[isNewFirst ? 1 : 0], *wish, nullptr, progress, findings));
-    SVT_TRY(other, readState(files[isNewFirst ? 0 : 1], *wish, &one->grid, progress, findings));
+    SVT_TRY(one, readVolume(files[isNewFirst ? 1 : 0], wish->memoryBytes, nullptr, progress, findings));
+    SVT_TRY(other, readVolume(files[isNewFirst ? 0 : 1], wish->memoryBytes, &one->grid, progress, findings));
     if (isNewFirst) std::swap(*one, *other);
     states->was = std::move(*one);
     states->is = std::move(*other);
@@ -175,29 +136,38 @@ Result<Reply> compareFiles(const Arguments& arguments) {
     return Reply(reportOf(*comparing, aligned, findings));
 }
 
+Result<const Comparing*> compared() {
+    if (!comparing) return Error(Code::BadArgument, "no states are compared; compare two first");
+    return static_cast<const Comparing*>(comparing.get());
+}
+
 // () -> the bytes that `svt diff -o F.json` writes
-Result<Reply> rows(const Arguments&) { return Reply(frontend::comparisonFile(comparing->compared())); }
+Result<Reply> rows(const Arguments&) {
+    SVT_TRY(states, compared());
+    return Reply(frontend::comparisonFile((*states)->compared()));
+}
 
 // () -> the numbers of the rows that differ, with the largest change first
-Result<Reply> order(const Arguments&) { return Reply(Json(compare::rowsByVolume(comparing->comparison)).dump()); }
+Result<Reply> order(const Arguments&) {
+    SVT_TRY(states, compared());
+    return Reply(Json(compare::rowsByVolume((*states)->comparison)).dump());
+}
 
 // () -> the bytes that `svt diff -o F.svt` writes
 Result<Reply> difference(const Arguments&) {
-    SVT_TRY(volume, compare::makeDifferenceVolume(comparing->was, comparing->is, comparing->comparison));
+    SVT_TRY(states, compared());
+    SVT_TRY(volume, compare::makeDifferenceVolume((*states)->was, (*states)->is, (*states)->comparison));
     SVT_TRY(bytes, volume::svtBytes(*volume));
     return Reply(std::move(*bytes));
 }
 
-constexpr Call kCompareCalls[] = {
-    {"compare", compareFiles, false}, {"rows", rows}, {"order", order}, {"difference", difference}};
+constexpr Call kCompareCalls[] = {{"compare", compareFiles, false},
+                                  {"rows", rows, false},
+                                  {"order", order, false},
+                                  {"difference", difference, false}};
 
 }  // namespace
 
-Result<Reply> runCall(std::string_view name, const Arguments& arguments) {
-    const Call* const call = findCall(kCompareCalls, name);
-    if (call == nullptr) return unknownCall(name);
-    if (call->needsVolume && !comparing) return Error(Code::BadArgument, "no states are compared; compare two first");
-    return call->run(arguments);
-}
+std::span<const Call> comparisonCalls() noexcept { return kCompareCalls; }
 
 }  // namespace svt::web

@@ -1,7 +1,7 @@
 // The calls on an open volume or city, see kCalls.
 #include "calls.hpp"
 #include "city.hpp"
-#include "font.hpp"
+#include "font/font.hpp"
 #include "replies.hpp"
 #include "walk.hpp"
 #include "whole.hpp"

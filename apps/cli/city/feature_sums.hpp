@@ -6,6 +6,7 @@
 
 #include <svt/analyze/extents.hpp>
 #include <svt/city/feature_rows.hpp>
+#include <svt/frontend/label_values.hpp>
 
 #include <array>
 #include <cstdint>
@@ -13,20 +14,11 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace svt::cli {
 
-/// The keys of a list such as "material,storey".
-[[nodiscard]] std::vector<std::string> splitKeys(std::string_view keys);
-
-/// The value of each label for a key, by the rules of FeatureSums; empty: none.
-/// \param features  that have values, ascending
-/// Cost: O(labels of all extents of the features).
-[[nodiscard]] std::vector<std::string> valuesOfKey(const std::string& key, const volume::LabelTable& table,
-                                                   const analyze::Extents& extents,
-                                                   const std::vector<std::uint32_t>& features);
+using frontend::splitKeys, frontend::valuesOfKey;
 
 /// Adds up the features of one or more volumes by the values of keys.
 ///

@@ -6,13 +6,12 @@
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 #include <apps/cli/quantities/city_take_off.hpp>
-#include <apps/cli/quantities/measure_take_off.hpp>
 #include <apps/cli/quantities/quantity_book.hpp>
 #include <apps/cli/quantities/quantity_settings.hpp>
 #include <apps/cli/quantities/take_off.hpp>
 
-#include <svt/analyze/selection.hpp>
 #include <svt/core/file.hpp>
+#include <svt/quantities/touching_faces.hpp>
 #include <svt/readers/ifc_quantities.hpp>
 
 #include <fmt/format.h>
@@ -25,10 +24,6 @@ namespace svt::cli {
 namespace {
 
 using quantities::TouchingArea;
-using Selection = std::vector<std::uint32_t>;  // labels, ascending
-
-constexpr const char* kNoMeshes =
-    "the volume has no meshes, so areas, lengths and openings are unknown; build it with --vectors meshes";
 
 struct QuantitiesArguments {
     std::filesystem::path input;
@@ -43,21 +38,9 @@ struct QuantitiesArguments {
     [[nodiscard]] TakeOffQuestion question() const { return {where, by, formwork, exterior, build.threads, false}; }
 };
 
-// The objects of a query; without one, all components, else all bodies, else all that have geometry.
-Result<Selection> findObjects(const volume::SemanticVolume& volume, const std::string& query) {
-    if (!query.empty()) {
-        SVT_TRY(selected, analyze::selectLabels(volume, query));
-        return quantities::objectsOf(volume, *selected);
-    }
-    Selection objects = quantities::defaultObjects(volume);
-    if (!objects.empty() && !quantities::isComponent(volume.labels.labels[objects.front()]))
-        note("the model has no walls, slabs or other components; the rows are its buildings, rooms and other objects");
-    return objects;
-}
-
 BookAbout bookAbout(const volume::SemanticVolume& volume, const QuantitiesArguments& arguments) {
     BookAbout about{arguments.input.string(), volume.grid.spacing(), {}, {}};
-    if (volume.vectors.triangles.empty()) about.notes.emplace_back(kNoMeshes);
+    if (volume.vectors.triangles.empty()) about.notes.emplace_back(frontend::kNoMeshes);
     return about;
 }
 
@@ -93,12 +76,6 @@ Result<std::string> copyOfIfc(const QuantitiesArguments& arguments, const TakeOf
     return std::move(copy->text);
 }
 
-// The table of a file, with the names of the columns.
-Table fileTable(const QuantitiesArguments& arguments, const TakeOff& takeOff) {
-    if (arguments.stated) return statedTable(takeOff);
-    return takeOff.keys.empty() ? takeOffTable(takeOff, false) : takeOffSums(takeOff, false);
-}
-
 Result<void> writeTakeOff(const QuantitiesArguments& arguments, const TakeOff& takeOff, const Table& table) {
     if (arguments.output.empty()) return {};
     const std::string ending = endingOf(arguments.output);
@@ -113,10 +90,10 @@ Result<void> writeTakeOff(const QuantitiesArguments& arguments, const TakeOff& t
         SVT_TRY(copy, copyOfIfc(arguments, takeOff));
         text = std::move(*copy);
     } else if (ending == ".parquet") {
-        SVT_TRY(bytes, writers::makeParquet(fileTable(arguments, takeOff)));
+        SVT_TRY(bytes, writers::makeParquet(chosenTable(takeOff, arguments.stated, false)));
         text = std::move(*bytes);
     } else if (ending == ".json") {
-        text = takeOffJson(takeOff, arguments.stated).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+        text = takeOffFile(takeOff, arguments.stated);
     } else {
         text = writers::makeCsv(table);
     }
@@ -126,41 +103,29 @@ Result<void> writeTakeOff(const QuantitiesArguments& arguments, const TakeOff& t
 
 // The rows, sums or stated quantities, with the columns, units and headings of the settings.
 Result<Table> shownTable(const QuantitiesArguments& arguments, const TakeOff& takeOff, bool hasSum) {
-    const bool hasSettings = !arguments.settingsFile.empty();
-    if (arguments.stated) {
-        Table stated = statedTable(takeOff);
-        return hasSettings ? withHeadings(std::move(stated), arguments.settings) : stated;
-    }
+    Table table = chosenTable(takeOff, arguments.stated, hasSum);
+    if (arguments.settingsFile.empty()) return table;
+    if (arguments.stated) return withHeadings(std::move(table), arguments.settings);
     const std::size_t keys = takeOff.keys.size();
-    Table table = keys == 0 ? takeOffTable(takeOff, hasSum) : takeOffSums(takeOff, hasSum);
-    if (!hasSettings) return table;
     SVT_TRY(changed, withQuantitySettings(std::move(table), arguments.settings, keys == 0 ? 0 : keys + 1));
     return withHeadings(std::move(*changed), arguments.settings);
 }
 
 Result<int> printTakeOff(const volume::SemanticVolume& volume, const QuantitiesArguments& arguments) {
-    auto objects = findObjects(volume, arguments.where);
-    if (!objects && objects.error().code() == Code::NothingSelected) {
-        // An answer, not an error: the query is valid, but selects no feature.
-        note(objects.error().message());
-        objects = Selection();
-    }
-    if (!objects) return objects.error();
-    TakeOff takeOff{volume, quantities::measureObjects(volume, *objects, arguments.build.threads)};
-    SVT_DO(completeTakeOff(arguments.question(), takeOff));
-    SVT_TRY(rows, shownTable(arguments, takeOff, false));
-    SVT_DO(writeTakeOff(arguments, takeOff, *rows));
+    std::vector<std::string> notes;
+    SVT_TRY(takeOff, measureTakeOff(volume, arguments.question(), notes));
+    SVT_TRY(rows, shownTable(arguments, *takeOff, false));
+    SVT_DO(writeTakeOff(arguments, *takeOff, *rows));
     TerminalProgress::hide();
-    if (takeOff.objects.empty()) note("no objects are measured; use --where with a query that selects objects");
-    for (const std::string& text : takeOffNotes(takeOff)) note(text);
+    for (const std::string& text : notes) note(text);
     if (arguments.json)
-        print(takeOffJson(takeOff, arguments.stated));
+        print(takeOffJson(*takeOff, arguments.stated));
     else if (!arguments.output.empty() && !arguments.csv)
-        summarize(fmt::format("{}: {} objects", arguments.output.string(), takeOff.objects.size()));
+        summarize(fmt::format("{}: {} objects", arguments.output.string(), takeOff->objects.size()));
     else if (arguments.csv)
         print(*rows, TableFormat::Csv);
     else {
-        SVT_TRY(withSum, shownTable(arguments, takeOff, true));
+        SVT_TRY(withSum, shownTable(arguments, *takeOff, true));
         print(*withSum, TableFormat::Text);
     }
     return kDone;
@@ -211,8 +176,9 @@ Result<int> printContacts(const volume::SemanticVolume& volume, const Quantities
     std::array<std::vector<std::uint32_t>, 2> objectOf;  // by label
     std::array<std::map<std::pair<std::uint32_t, std::uint32_t>, double>, 2> areas;
     std::size_t withoutMesh = 0;
+    std::vector<std::string> notes;
     for (std::size_t s = 0; s < 2; ++s) {
-        SVT_TRY(objects, findObjects(volume, arguments.between[s]));
+        SVT_TRY(objects, frontend::findObjects(volume, arguments.between[s], notes));
         sides[s] = quantities::measureObjects(volume, *objects, arguments.build.threads);
         objectOf[s].assign(volume.labels.labels.size(), volume::kNoLabel);
         for (const auto& object : sides[s]) {
@@ -235,6 +201,7 @@ Result<int> printContacts(const volume::SemanticVolume& volume, const Quantities
                 areas[1 - s].try_emplace(pair, 0.0);
             }
     }
+    for (const std::string& text : notes) note(text);
     Table table;
     table.columns = {{"a", "a"},        {"aName", "name"}, {"b", "b"},
                      {"bName", "name"}, {"area", "m2"},    {"areaOfB", "m2 by faces of b"}};
@@ -292,8 +259,9 @@ Result<int> runQuantities(const QuantitiesArguments& given) {
     pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
     SVT_TRY(volume, loadVolume(arguments.input, build, TerminalProgress().get(), false));
-    if (volume->vectors.triangles.empty()) note(kNoMeshes);
-    return arguments.between.empty() ? printTakeOff(*volume, arguments) : printContacts(*volume, arguments);
+    if (arguments.between.empty()) return printTakeOff(*volume, arguments);
+    if (volume->vectors.triangles.empty()) note(frontend::kNoMeshes);
+    return printContacts(*volume, arguments);
 }
 
 Members<QuantitiesArguments> membersOf(const QuantitiesArguments*) noexcept {

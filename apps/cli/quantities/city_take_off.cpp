@@ -67,7 +67,7 @@ private:
         return put_(text);
     }
     Result<void> putText() {
-        const Result<void> done = put_(writers::makeText(rows_));
+        Result<void> done = put_(writers::makeText(rows_));
         rows_.rows.clear();
         return done;
     }

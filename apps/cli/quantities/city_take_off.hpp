@@ -2,7 +2,7 @@
 /// \file
 /// Quantities of a city, tile by tile.
 
-#include <apps/cli/quantities/measure_take_off.hpp>
+#include <apps/cli/quantities/take_off.hpp>
 
 #include <cstdint>
 #include <filesystem>

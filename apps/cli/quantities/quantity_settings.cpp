@@ -38,6 +38,7 @@ constexpr ColumnText kColumnTexts[] = {
     {"width", "Width", "Breite", Measure::Length},
     {"height", "Height", "Höhe", Measure::Length},
     {"perimeter", "Perimeter", "Umfang", Measure::Length},
+    {"exteriorCountedArea", "Exterior area, divided by points", "Außenfläche, durch Punkte geteilt", Measure::Area},
     {"exterior_n", "Exterior, north", "Außen, Nord", Measure::Area},
     {"exterior_ne", "Exterior, north-east", "Außen, Nordost", Measure::Area},
     {"exterior_e", "Exterior, east", "Außen, Ost", Measure::Area},

@@ -33,9 +33,10 @@ protected:
 TEST_F(Quantities, HasTheDocumentedKeys) {
     sample("house.gml");
     const json report = measure("house.gml", {"--exterior"});
-    const std::set<std::string> expected{"id",           "class",       "name",         "storey",  "material",
-                                         "netVolume",    "grossVolume", "sideArea",     "topArea", "bottomArea",
-                                         "exteriorArea", "openingArea", "formworkArea", "trust",   "bound"};
+    const std::set<std::string> expected{"id",           "class",      "name",         "storey",
+                                         "material",     "netVolume",  "grossVolume",  "sideArea",
+                                         "topArea",      "bottomArea", "exteriorArea", "openingArea",
+                                         "formworkArea", "trust",      "bound",        "exteriorCountedArea"};
     ASSERT_GT(report["rows"].size(), 50u);
     for (const json& row : report["rows"]) {
         std::set<std::string> keys;
@@ -47,6 +48,26 @@ TEST_F(Quantities, HasTheDocumentedKeys) {
     }
     EXPECT_FALSE(report["assumptions"].empty());
     EXPECT_EQ(report["total"]["objects"], report["rows"].size());
+}
+
+// Colours are those of the volume: of the materials of the file, or of the style.
+TEST_F(Quantities, AddUpExteriorAreasByColour) {
+    sample("house.gml");
+    const json report = measure("house.gml", {"--exterior", "--by", "color"});
+    ASSERT_GT(report["sums"].size(), 2u);
+    double sum = 0, counted = 0;
+    std::set<std::string> colors;
+    for (const json& row : report["sums"]) {
+        const std::string color = row["by"]["color"];
+        EXPECT_TRUE(color.size() == 7 && color.front() == '#') << color;
+        EXPECT_TRUE(colors.insert(color).second) << color;
+        if (row["exteriorArea"].is_null()) continue;
+        sum += row["exteriorArea"].get<double>();
+        counted += row["exteriorCountedArea"].get<double>();
+    }
+    EXPECT_NEAR(sum, report["total"]["exteriorArea"], 1e-5);
+    EXPECT_NEAR(counted, report["total"]["exteriorCountedArea"], 1e-5);
+    EXPECT_LT(counted, 0.005 * sum) << "meshes divide nearly all faces";
 }
 
 // The model states its volumes; IFC and CityGML of one house have the same sums.

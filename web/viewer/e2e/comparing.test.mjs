@@ -1,10 +1,9 @@
 // Two states of a building in the page: dropped, chosen and linked; the list, the switch, the way back; against `svt diff`.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { mkdirSync, readFileSync } from "node:fs";
-import { join } from "node:path";
+import { readFileSync } from "node:fs";
 import { after, before, describe, it } from "node:test";
-import { command, repository, serve, svt, withModels } from "./harness.mjs";
+import { command, serve, svt, withModels } from "./harness.mjs";
 import { scratch, Visit } from "./visit.mjs";
 
 const { at, drop: dropFolder } = scratch("svt-comparing-test-");
@@ -52,14 +51,6 @@ async function dropToCompare(...files) {
   );
 }
 
-/** A picture of the page, if SVT_SHOTS names a folder. */
-async function shot(name) {
-  const folder = process.env.SVT_SHOTS;
-  if (!folder) return;
-  mkdirSync(folder, { recursive: true });
-  await visit.page.screenshot({ path: join(folder, `${name}.png`) });
-}
-
 function diff(old, is) {
   const done = spawnSync(command, ["diff", at(old), at(is), "-q", "-o", at("diff.json"), "-o", at("diff.svt")]);
   assert.equal(done.status, 7, String(done.stderr));
@@ -71,16 +62,16 @@ describe("comparing", () => {
     const asked = [];
     await open();
     visit.page.on("request", (request) => asked.push(request.url()));
-    const isOfComparison = (url) => /svt_compare|compare_worker|changes_panel/.test(url);
+    const isOfComparison = (url) => /svt_reports|reports_worker|changes_panel|quantities_panel/.test(url);
     await settled();
     await visit.page.waitForLoadState("networkidle");
     assert.deepEqual(asked.filter(isOfComparison), []);
     await visit.page.click("#compare");
     await panel().locator("#compare-is").selectOption("new");
-    assert.ok(!asked.some((url) => /svt_compare/.test(url)));
+    assert.ok(!asked.some((url) => /svt_reports/.test(url)));
     await panel().locator("#compare-run").click();
     await compared();
-    assert.ok(asked.some((url) => /\/svt_compare-[^/]*\.wasm$/.test(url)));
+    assert.ok(asked.some((url) => /\/svt_reports-[^/]*\.wasm$/.test(url)));
   });
 
   it("compares a dropped model with the open one, and has the files of the command", async () => {
@@ -97,7 +88,7 @@ describe("comparing", () => {
     assert.ok(directory > 0 && volume.bytes.subarray(0, directory).equals(expected.svt.subarray(0, directory)), "volume");
     assert.equal(await inPage("s.volume.file"), "old_new.svt");
     await settled();
-    await shot("comparison-desktop");
+    await visit.shot("comparison-desktop");
     assert.deepEqual(visit.problems, []);
   });
 
@@ -150,7 +141,7 @@ describe("comparing", () => {
     await panel().locator("#shown-old").click();
     assert.deepEqual((await state()).styles, [{ select: is, opacity: 0 }]);
     await settled();
-    await shot("comparison-old");
+    await visit.shot("comparison-old");
     await visit.page.click("#undo");
     assert.deepEqual((await state()).styles, []);
     assert.equal(await panel().locator("#shown-both").getAttribute("aria-checked"), "true");
@@ -260,7 +251,7 @@ describe("comparing", () => {
     await dropToCompare({ name: "apart.gml", bytes: Buffer.from(shifted) });
     await panel().getByText("The models do not overlap in space.").waitFor();
     await settled();
-    await shot("comparison-apart");
+    await visit.shot("comparison-apart");
     await panel().locator("#changes-align").click();
     await panel().getByText("The new model is moved by (-60.0000; 0.0000; 0.0000) m").waitFor();
     await dropToCompare({ name: "same.svt", bytes: readFileSync(at("old.svt")) });
@@ -270,24 +261,15 @@ describe("comparing", () => {
 
   it("states that the module could not be loaded, and tries again", async () => {
     await open("?old=old&new=other");
-    await visit.page.context().route(/svt_compare-/, (route) => route.abort());
+    await visit.page.context().route(/svt_reports-/, (route) => route.abort());
     await panel().locator("#compare-is").selectOption("new");
     await panel().locator("#compare-run").click();
     await visit.message("cannot be loaded");
-    await visit.page.context().unroute(/svt_compare-/);
+    await visit.page.context().unroute(/svt_reports-/);
     await panel().locator("#compare-run").click();
     await compared();
   });
 
-  const axe = readFileSync(join(repository, "web/viewer/node_modules/axe-core/axe.min.js"), "utf8");
-  async function findings() {
-    // Evaluated by the debugger, since the page's policy allows no foreign script.
-    await visit.page.evaluate(axe);
-    const { violations } = await visit.page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
-    // A page with several models has a choice in the place of its heading, which axe finds less serious.
-    const serious = violations.filter((v) => ["serious", "critical"].includes(v.impact));
-    return serious.map((v) => `${v.id}: ${v.nodes.map((n) => n.target.flat().join(" ")).join(" | ")}`);
-  }
   for (const { colorScheme, width, height, locale } of [
     { colorScheme: "light", width: 1440, height: 900, locale: "en-US" },
     { colorScheme: "dark", width: 1440, height: 900, locale: "de-DE" },
@@ -298,28 +280,21 @@ describe("comparing", () => {
       await open("?old=old&new=other", { colorScheme, viewport: { width, height }, locale, hasTouch: width < 700 });
       await panel().locator("#compare-is").waitFor();
       await visit.page.waitForTimeout(300);
-      await shot(`choice-${colorScheme}-${width}`);
-      const found = await findings();
+      await visit.shot(`choice-${colorScheme}-${width}`);
+      const found = await visit.findings();
       await panel().locator("#compare-is").selectOption("new");
       await panel().locator("#compare-run").click();
       await compared();
       await lines().first().click();
       await settled();
-      await shot(`changes-${colorScheme}-${width}`);
-      found.push(...(await findings()));
+      await visit.shot(`changes-${colorScheme}-${width}`);
+      found.push(...(await visit.findings()));
       for (const summary of await panel().locator("summary").all()) await summary.click();
       await panel().locator("#changes-classes").scrollIntoViewIfNeeded();
-      await shot(`classes-${colorScheme}-${width}`);
-      found.push(...(await findings()));
+      await visit.shot(`classes-${colorScheme}-${width}`);
+      found.push(...(await visit.findings()));
       assert.deepEqual(found, []);
       if (width > 700) return;
-      const small = await visit.page.evaluate(() => {
-        const root = document.querySelector("svt-app").renderRoot.querySelector("svt-changes").renderRoot;
-        return [...root.querySelectorAll("button, select, summary, input:not([type=checkbox], [hidden])")]
-          .map((e) => ({ id: e.id || e.textContent, ...e.getBoundingClientRect().toJSON() }))
-          .filter((e) => e.height > 0 && e.height < 44)
-          .map((e) => `${e.id}: ${e.height}`);
-      });
-      assert.deepEqual(small, []);
+      assert.deepEqual(await visit.tooSmall("svt-changes"), []);
     });
 });

@@ -1,9 +1,9 @@
 // A visit of the built page in a browser, for tests: its page, and what tests do again and again.
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before } from "node:test";
-import { endBrowser, newContext, serve, svt, withModels } from "./harness.mjs";
+import { endBrowser, newContext, repository, serve, svt, withModels } from "./harness.mjs";
 
 /** Ends what hangs; no measure of speed: machines may be slow, and do other work besides. */
 export const kHang = 240_000;
@@ -127,6 +127,31 @@ export class Visit {
       },
       [name, bytes.toString("base64")],
     );
+  /** A picture of the page, if SVT_SHOTS names a folder. */
+  shot = async (name) => {
+    const folder = process.env.SVT_SHOTS;
+    if (!folder) return;
+    mkdirSync(folder, { recursive: true });
+    await this.page.screenshot({ path: join(folder, `${name}.png`) });
+  };
+  /** Serious findings of axe in the page. */
+  findings = async () => {
+    // Evaluated by the debugger, since the page's policy allows no foreign script.
+    await this.page.evaluate(readFileSync(join(repository, "web/viewer/node_modules/axe-core/axe.min.js"), "utf8"));
+    const { violations } = await this.page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
+    // A page with several models has a choice in the place of its heading, which axe finds less serious.
+    const serious = violations.filter((v) => ["serious", "critical"].includes(v.impact));
+    return serious.map((v) => `${v.id}: ${v.nodes.map((n) => n.target.flat().join(" ")).join(" | ")}`);
+  };
+  /** Controls of a part of the page that are too small for fingers. */
+  tooSmall = (name) =>
+    this.page.evaluate((part) => {
+      const root = document.querySelector("svt-app").renderRoot.querySelector(part).renderRoot;
+      return [...root.querySelectorAll("button, select, summary, input:not([type=checkbox], [hidden])")]
+        .map((e) => ({ id: e.id || e.textContent, ...e.getBoundingClientRect().toJSON() }))
+        .filter((e) => e.height > 0 && e.height < 44)
+        .map((e) => `${e.id}: ${e.height}`);
+    }, name);
   message = (text) => this.page.locator("#message").getByText(text).waitFor();
   /** What a click saves. */
   saved = async (click) => {

@@ -41,6 +41,8 @@ export interface ActionHost {
   compare(): void;
   openPalette(): void;
   openTable(): void;
+  /** Shows the quantities of the model, or closes them. */
+  openQuantities(): void;
   /** Shows a plan and two sections beside the picture, or closes them. */
   openFour(): void;
 }
@@ -154,6 +156,7 @@ function pageActions(host: ActionHost, hasParts: () => boolean): Action[] {
     },
     { id: "four", text: () => t("fourViews"), icon: "four", keys: ["j"], isEnabled: hasParts, run: () => host.openFour() },
     { id: "table", text: () => t("tableHint"), icon: "table", keys: ["t"], isEnabled: hasParts, run: () => host.openTable() },
+    { id: "quantities", text: () => t("quantities"), icon: "sum", isEnabled: hasParts, run: () => host.openQuantities() },
     {
       id: "panel-tree",
       text: () => t("showPanel", { panel: t("panelTree") }),

@@ -18,6 +18,7 @@ import "./panels/properties_panel";
 import "./panels/start_panel";
 import "./panels/tree_panel";
 import type { TreePanel } from "./panels/tree_panel";
+import type { QuantitiesPanel } from "./quantities/quantities_panel";
 import type { Tool } from "./session/view";
 import { kFileKinds } from "./opening";
 import { menuActions, nameOfSelection } from "./selection_actions";
@@ -52,9 +53,8 @@ export class App extends Part implements ActionHost {
     isSmall: { state: true },
     isTreeShown: { state: true },
     isSelectionShown: { state: true },
-    isTableShown: { state: true },
+    below: { state: true },
     isFourShown: { state: true },
-    isComparing: { state: true },
     isDropping: { state: true },
     dropAt: { state: true },
     dockAt: { state: true },
@@ -65,11 +65,10 @@ export class App extends Part implements ActionHost {
   declare isSmall: boolean;
   declare isTreeShown: boolean;
   declare isSelectionShown: boolean;
-  declare isTableShown: boolean;
+  /** The panel below the picture. */
+  declare below: "table" | "changes" | "quantities" | null;
   /** A plan and two sections are beside the picture. */
   declare isFourShown: boolean;
-  /** The panel of a comparison is in the place of the table. */
-  declare isComparing: boolean;
   declare isDropping: boolean;
   /** The purpose of dropped files, which can also be compared. null: only to open them. */
   declare dropAt: "open" | "compare" | null;
@@ -97,10 +96,8 @@ export class App extends Part implements ActionHost {
     this.isSmall = matchMedia(kSmall).matches;
     this.isTreeShown = !this.isNarrow;
     this.isSelectionShown = true;
-    this.isTableShown = false;
-    this.isFourShown = false;
-    this.isComparing = this.isDropping = false;
-    this.dropAt = null;
+    this.isFourShown = this.isDropping = false;
+    this.below = this.dropAt = null;
     this.dockAt = 0;
     this.preview = "";
   }
@@ -115,7 +112,8 @@ export class App extends Part implements ActionHost {
     this.addEventListener("svt-choose", () => this.choose());
     this.addEventListener("svt-menu", (event) => void this.openMenu(event as MenuRequest));
     this.addEventListener("svt-close-table", () => this.openTable());
-    this.addEventListener("svt-close-changes", () => this.endComparing());
+    this.addEventListener("svt-close-changes", () => this.endBelow("compare"));
+    this.addEventListener("svt-close-quantities", () => this.endBelow("quantities"));
   }
 
   private get isHuge(): boolean {
@@ -157,12 +155,15 @@ export class App extends Part implements ActionHost {
     const { session } = this;
     const hasModel = session.volume.info !== null;
     const isEmpty = session.model.status === "empty" && !hasModel;
-    const isTable = this.isTableShown && hasModel;
-    const below = this.isComparing
-      ? html`<section class="table" aria-label=${t("compare")}><svt-changes .session=${session}></svt-changes></section>`
-      : isTable
-        ? html`<section class="table" aria-label=${t("tableHint")}><svt-table .session=${session}></svt-table></section>`
-        : nothing;
+    const part = (title: string, content: unknown) => html`<section class="table" aria-label=${title}>${content}</section>`;
+    const below =
+      this.below === "changes"
+        ? part(t("compare"), html`<svt-changes .session=${session}></svt-changes>`)
+        : this.below === "quantities"
+          ? part(t("quantities"), html`<svt-quantities .session=${session}></svt-quantities>`)
+          : this.below && hasModel
+            ? part(t("tableHint"), html`<svt-table .session=${session}></svt-table>`)
+            : nothing;
     return html`
       <button class="skip" @click=${() => this.picture?.focus()}>${t("skipToPicture")}</button>
       ${this.bar()}
@@ -206,11 +207,12 @@ export class App extends Part implements ActionHost {
           : nothing
       }
       ${hasModel && !volume.isServerOnly ? html`${this.stepButton("undo", view.undoable, () => view.undo())}${this.stepButton("redo", view.redoable, () => view.redo())}` : nothing}
-      ${hasModel && !volume.isServerOnly ? html`<button class="bare" id="table" aria-pressed=${this.isTableShown} aria-label=${t("tableHint")} title="${t("tableHint")} (T)" @click=${() => this.openTable()}>${icon("table")}</button>` : nothing}
+      ${hasModel && !volume.isServerOnly ? html`<button class="bare" id="table" aria-pressed=${this.below === "table"} aria-label=${t("tableHint")} title="${t("tableHint")} (T)" @click=${() => this.openTable()}>${icon("table")}</button>` : nothing}
       ${hasModel && !volume.isServerOnly ? html`<button class="bare" id="four" aria-pressed=${this.isFourShown} aria-label=${t("fourViews")} title="${t("fourViews")} (J)" @click=${() => this.openFour()}>${icon("four")}</button>` : nothing}
+      ${hasModel && !volume.isServerOnly ? html`<button class="bare" id="quantities" aria-pressed=${this.below === "quantities"} aria-label=${t("quantities")} title=${t("quantities")} @click=${() => this.openQuantities()}>${icon("sum")}</button>` : nothing}
       <button class="bare" id="actions" aria-haspopup="dialog" aria-label=${t("actionsHint")} title=${t("actionsHint")} @click=${() => this.openPalette()}>${icon("menu")}</button>
       <button class="bare" id="open" aria-label=${t("openHint", { kinds: kFileKinds.join(", ") })} title=${t("openHint", { kinds: kFileKinds.join(", ") })} @click=${() => this.choose()}>${icon("open")}</button>
-      ${volume.isServerOnly ? nothing : html`<button class="bare" id="compare" aria-pressed=${this.isComparing} aria-label=${t("compare")} title=${t("compare")} @click=${() => (this.isComparing ? this.endComparing() : this.compare())}>${icon("flip")}</button>`}
+      ${volume.isServerOnly ? nothing : html`<button class="bare" id="compare" aria-pressed=${this.below === "changes"} aria-label=${t("compare")} title=${t("compare")} @click=${() => (this.below === "changes" ? this.endBelow("compare") : this.compare())}>${icon("flip")}</button>`}
       <button class="bare" id="theme" aria-label=${t("theme")} title=${t("theme")} @click=${() => this.switchTheme()}>${icon(theme() === "dark" ? "sun" : "moon")}</button>
       ${
         languages.all.length > 2
@@ -237,7 +239,7 @@ export class App extends Part implements ActionHost {
     const isTree = which === "tree";
     const isOn = isTree ? !this.isTreeShown : !this.isSelectionShown;
     if (this.isNarrow && isOn) {
-      this.isTableShown = this.isComparing = false;
+      this.below = null;
       this.isTreeShown = this.isSelectionShown = false;
       this.session.view.tool = null;
     }
@@ -414,7 +416,7 @@ export class App extends Part implements ActionHost {
     const { session } = this;
     if (session.view.aim === "point") session.view.aim = null;
     session.view.tool = session.view.tool === tool ? null : tool;
-    if (session.view.tool && this.isNarrow) this.isTreeShown = this.isSelectionShown = this.isTableShown = this.isComparing = false;
+    if (session.view.tool && this.isNarrow) this.clear();
     if (session.view.tool === "lens" && session.view.now.effect !== "lens")
       session.view.set({ effect: "lens", lens: { ...session.view.now.lens, pinned: false } });
   }
@@ -525,11 +527,7 @@ export class App extends Part implements ActionHost {
   /** Shows the panel that compares two states. @param linked  names of the states, and the view of a link */
   compare(files: File[] = [], linked: Parameters<ChangesPanel["follow"]>[0] | null = null): void {
     if (this.session.volume.isServerOnly) return;
-    this.isComparing = true;
-    if (this.isNarrow) {
-      this.isTreeShown = this.isSelectionShown = this.isTableShown = false;
-      this.session.view.tool = null;
-    }
+    this.show("changes");
     void this.loaded<ChangesPanel>("svt-changes", () => import("./comparing/changes_panel")).then(async (panel) => {
       await panel?.updateComplete;
       if (linked) panel?.follow(linked);
@@ -538,10 +536,34 @@ export class App extends Part implements ActionHost {
     });
   }
 
-  /** Closes the panel. The picture stays. */
-  private endComparing(): void {
-    this.isComparing = false;
-    void this.updateComplete.then(() => (this.renderRoot.querySelector<HTMLElement>("#compare:not([hidden])") ?? this.picture)?.focus());
+  /** Shows a part below the picture. In narrow pages it takes the place of sheets and tools. */
+  private show(below: NonNullable<App["below"]>): void {
+    if (this.isNarrow) {
+      this.clear();
+      this.session.view.tool = null;
+    }
+    this.below = below;
+  }
+
+  private clear(): void {
+    this.isTreeShown = this.isSelectionShown = false;
+    this.below = null;
+  }
+
+  /** Closes the part below the picture, which stays. @param button  gets the focus */
+  private endBelow(button: string): void {
+    this.below = null;
+    void this.updateComplete.then(() => (this.renderRoot.querySelector<HTMLElement>(`#${button}:not([hidden])`) ?? this.picture)?.focus());
+  }
+
+  /** Shows the quantities of the model, or closes them. */
+  openQuantities(): void {
+    if (this.below === "quantities") return this.endBelow("quantities");
+    this.show("quantities");
+    void this.loaded<QuantitiesPanel>("svt-quantities", () => import("./quantities/quantities_panel")).then(async (panel) => {
+      await panel?.updateComplete;
+      panel?.focus();
+    });
   }
 
   private keyDown(event: KeyboardEvent): void {
@@ -578,11 +600,8 @@ export class App extends Part implements ActionHost {
 
   /** Shows the table of objects, or closes it. */
   openTable(): void {
-    this.isTableShown = this.isComparing || !this.isTableShown;
-    this.isComparing = false;
-    if (!this.isTableShown) return void this.updateComplete.then(() => this.renderRoot.querySelector<HTMLElement>("#table")?.focus());
-    if (this.isNarrow) this.isTreeShown = this.isSelectionShown = false;
-    if (this.isNarrow) this.session.view.tool = null;
+    if (this.below === "table") return this.endBelow("table");
+    this.show("table");
     void this.loaded("svt-table", () => import("./panels/object_table"));
   }
 

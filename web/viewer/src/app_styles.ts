@@ -112,7 +112,7 @@ export const appStyles = css`
   @media (max-width: 479px) {
     header { flex-wrap: wrap; justify-content: space-between; }
     /* The list of actions has them. */
-    #theme, #table, #four, #compare { display: none; }
+    #theme, #table, #four, #quantities, #compare { display: none; }
     .title { flex-basis: 100%; padding-left: 6px; }
     .title select { max-width: 100%; }
     header .languages { width: auto; }

@@ -166,8 +166,8 @@ const kTexts = {
     "Etwas im Bild oder in der Liste anklicken. Alt-Klick zeigt alles, was hinter einem Punkt liegt.",
   ],
   severalSelected: ["{n} selected", "{n} ausgewählt"],
-  volumeByVoxels: ["Volume", "Volumen"],
-  modelVolume: ["Volume in the model", "Volumen im Modell"],
+  byVoxels: ["{value} by voxels", "{value} nach Voxeln"],
+  floorArea: ["Floor area", "Grundfläche"],
   totalVolume: ["Volume with parts", "Volumen mit Teilen"],
   totalSurface: ["Surface with parts", "Oberfläche mit Teilen"],
   surface: ["Surface", "Oberfläche"],
@@ -193,6 +193,7 @@ const kTexts = {
   pathOf: ["Where it is", "Wo es liegt"],
   actionsHint: ["Actions (Ctrl and K)", "Aktionen (Strg und K)"],
   tableHint: ["Table of objects", "Tabelle der Objekte"],
+  quantities: ["Quantities", "Mengen"],
   storey: ["Storey", "Geschoss"],
 
   tools: ["Tools", "Werkzeuge"],

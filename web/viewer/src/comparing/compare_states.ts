@@ -2,46 +2,46 @@
 
 import { kCancelled, type EngineError, type FileBytes } from "../engine";
 import { json } from "../engine/calls";
-import type { Compared, Row, Summary, Wish } from "./compared";
-import type { CompareAnswer, CompareRequest } from "./compare_worker";
+import { ReportsModule } from "../reports/reports_module";
+import { isFatal } from "../session/model";
+import type { Compared, Report, Row, Summary, Wish } from "./compared";
 
 /**
  * @param states  the old and the new one; their bytes are transferred
  * @param memory  limit of each volume that is built, bytes
  * @return rejects with an EngineError; its code is kCancelled after `signal`
  */
-export function compareStates(
+export async function compareStates(
   states: [FileBytes[], FileBytes[]],
   wish: Wish & { memory: number },
   onProgress: (step: string, done: number) => void,
   signal: AbortSignal,
 ): Promise<Compared> {
-  const worker = new Worker(new URL("./compare_worker.ts", import.meta.url), { type: "module", name: "svt comparison" });
-  return new Promise<Compared>((resolve, reject) => {
-    signal.addEventListener("abort", () => reject({ code: kCancelled, message: kCancelled } satisfies EngineError));
-    worker.onerror = (event) => {
-      event.preventDefault();
-      reject({ code: "E999", message: `the comparison cannot run here (${event.message})` } satisfies EngineError);
+  const svt = new ReportsModule(onProgress, signal);
+  const of = <T>(value: (file: FileBytes) => T) => states.map((state) => state.map(value));
+  try {
+    const sizes = of(({ bytes }) => bytes.byteLength);
+    const report = await svt.json<Report>("compare", [of(({ name }) => name), sizes, wish], states.flat());
+    const order = await svt.json<number[]>("order");
+    const file = await svt.call("rows");
+    const volume = await svt.call("difference").catch(reasonOf);
+    const hasVolume = typeof volume !== "string";
+    return {
+      report,
+      order,
+      ...json<{ rows: Row[]; summary: Summary }>(new Uint8Array(file)),
+      file: new Blob([file], { type: "application/json" }),
+      volume: hasVolume ? new Blob([volume]) : null,
+      reason: hasVolume ? "" : volume,
     };
-    worker.onmessage = ({ data }: MessageEvent<CompareAnswer>) => {
-      if ("step" in data) return onProgress(data.step, data.done);
-      if ("error" in data) return reject(data.error);
-      resolve(comparedOf(data));
-    };
-    const buffers = new Set(states.flat().map(({ bytes }) => bytes));
-    worker.postMessage({ states, wish } satisfies CompareRequest, [...buffers]);
-  }).finally(() => worker.terminate());
+  } finally {
+    svt.end();
+  }
 }
 
-function comparedOf(answer: Extract<CompareAnswer, { report: ArrayBuffer }>): Compared {
-  const read = <T>(bytes: ArrayBuffer) => json<T>(new Uint8Array(bytes));
-  const hasVolume = typeof answer.volume !== "string";
-  return {
-    report: read(answer.report),
-    order: read(answer.order),
-    ...read<{ rows: Row[]; summary: Summary }>(answer.file),
-    file: new Blob([answer.file], { type: "application/json" }),
-    volume: hasVolume ? new Blob([answer.volume]) : null,
-    reason: hasVolume ? "" : (answer.volume as string),
-  };
+/** The reason why there is no difference volume: the states have no common samples, or too many objects. */
+function reasonOf(error: EngineError): string {
+  const { code, message } = error;
+  if (code === kCancelled || isFatal(error)) throw error;
+  return message;
 }

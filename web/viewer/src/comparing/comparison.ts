@@ -4,6 +4,7 @@ import type { CityFiles } from "../city/city_files";
 import { Download } from "../download";
 import { kCancelled, type EngineError, type FileBytes } from "../engine";
 import { effect, Observable, untracked } from "../observable";
+import { filesOf } from "../reports/files";
 import type { Session } from "../session";
 import type { Source } from "../session/refining";
 import type { Progress } from "../session/messages";
@@ -151,7 +152,7 @@ export class Comparison extends Observable {
     session.messages.message = null;
     session.messages.say(this.progress.text);
     try {
-      const states: [FileBytes[], FileBytes[]] = [await bytesOf(old), await bytesOf(is)];
+      const states: [FileBytes[], FileBytes[]] = [await filesOf(old.files, old.name), await filesOf(is.files, is.name)];
       if (isOver()) return;
       const tell = (step: string, share: number) => {
         if (!isOver()) this.progress = { text: compareStage(step) ?? stageText(step), share };
@@ -269,18 +270,4 @@ export function comparisonOf(session: Session): Comparison {
   const known = comparisons.get(session) ?? new Comparison(session);
   comparisons.set(session, known);
   return known;
-}
-
-async function bytesOf(state: State): Promise<FileBytes[]> {
-  let files: FileBytes[];
-  try {
-    files = await state.files();
-  } catch (error) {
-    // A download states its reason; a file of the user that was moved or deleted does not.
-    const { message } = error as EngineError;
-    throw error instanceof Error || !message ? { message: compareText("compareLost", { name: state.name }) } : error;
-  }
-  const empty = files.find(({ bytes }) => !bytes.byteLength);
-  if (empty) throw { message: compareText("compareEmpty", { name: empty.name }) };
-  return files;
 }

@@ -35,11 +35,6 @@ const kCompareTexts = {
   stage_match: ["Matching objects", "Objekte werden zugeordnet"],
   stage_compare: ["Measuring changes", "Änderungen werden gemessen"],
   compareFailed: ["The files cannot be compared", "Die Dateien lassen sich nicht vergleichen"],
-  compareLost: [
-    "{name}: the file cannot be read again; open it again.",
-    "{name}: Die Datei lässt sich nicht noch einmal lesen; öffnen Sie sie erneut.",
-  ],
-  compareEmpty: ["{name}: the file is empty.", "{name}: Die Datei ist leer."],
   compareDone: ["{n} changes between {old} and {new}", "{n} Änderungen zwischen {old} und {new}"],
   compareEqual: ["{old} and {new} have no differences.", "{old} und {new} haben keine Unterschiede."],
   compareBack: ["Back to {name}", "Zurück zu {name}"],

@@ -34,7 +34,8 @@ function isVolume({ bytes }: FileBytes): boolean {
   return text.startsWith("PK\x03\x04") && text.endsWith(kMediaType);
 }
 
-function joined(files: readonly FileBytes[]): Uint8Array {
+/** The bytes of all files, one after the other. */
+export function joined(files: readonly FileBytes[]): Uint8Array {
   if (files.length === 1) return new Uint8Array(files[0]!.bytes);
   const all = new Uint8Array(files.reduce((sum, file) => sum + file.bytes.byteLength, 0));
   let at = 0;

@@ -7,10 +7,9 @@ import { save } from "../ui/files";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
 import { nameOf } from "./feature_path";
+import { gridStyles, kGridRow, placeLines, reveal, rowOfKey, rowsAt } from "./grid";
 import { cellsOf, csvOf, rowsWith, sorted, storeysOf, type Cell, type Column, type Order } from "./table_rows";
 
-const kRow = matchMedia("(max-width: 759px), (pointer: coarse)").matches ? 44 : 28;
-const kSpare = 8;
 const kWidth = 170;
 /** Attributes that a new table shows. */
 const kFirstAttributes = 3;
@@ -45,25 +44,14 @@ export class ObjectTable extends Part {
 
   static override styles = [
     controls,
+    gridStyles,
     css`
-      :host { display: grid; grid-template: auto minmax(0, 1fr) / minmax(0, 1fr); height: 100%; min-height: 0; background: var(--panel); font-size: 13px; }
+      :host { --cell: ${unsafeCSS(`${kWidth}px`)}; display: grid; grid-template: auto minmax(0, 1fr) / minmax(0, 1fr); height: 100%; min-height: 0; background: var(--panel); font-size: 13px; }
       header { display: flex; flex-wrap: wrap; gap: 8px; align-items: center; padding: 6px 10px; border-bottom: 1px solid var(--line); }
       header h2 { flex: none; }
       header input { flex: 1 1 160px; width: auto; min-width: 0; }
       header select { width: auto; max-width: 190px; flex: 0 1 auto; }
       .grow { flex: 1; }
-      .scroll { overflow: auto; min-height: 0; outline-offset: -2px !important; overscroll-behavior: contain; position: relative; }
-      .head { position: sticky; top: 0; z-index: 1; display: flex; background: var(--panel); border-bottom: 1px solid var(--line-strong); width: max-content; min-width: 100%; }
-      .space { position: relative; width: max-content; min-width: 100%; }
-      .line { position: absolute; left: 0; right: 0; display: flex; height: ${unsafeCSS(`${kRow}px`)}; align-items: center; cursor: default; }
-      .line:hover { background: var(--hover); }
-      .line[aria-selected="true"] { background: var(--accent-soft); color: var(--accent-text); }
-      .scroll:focus-visible .line.active { box-shadow: inset 0 0 0 2px var(--focus); }
-      [role="gridcell"], [role="columnheader"] { width: ${unsafeCSS(`${kWidth}px`)}; flex: none; padding: 0 8px; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
-      [role="columnheader"] { display: flex; padding: 0; align-items: center; }
-      [role="columnheader"] button { border-color: transparent; background: transparent; min-width: 28px; padding: 4px 8px; }
-      [role="columnheader"] .sort { flex: 1; justify-content: flex-start; font-weight: 600; overflow: hidden; }
-      .sort span { overflow: hidden; text-overflow: ellipsis; }
       @media (max-width: 759px) {
         header { padding: 4px 6px; gap: 6px; }
         header h2 { display: none; }
@@ -72,7 +60,6 @@ export class ObjectTable extends Part {
         header input, header span { order: 2; }
         #table-select, #table-save { order: 3; flex: 1 1 auto; }
       }
-      .number { text-align: right; font-variant-numeric: tabular-nums; }
     `,
   ];
 
@@ -175,15 +162,14 @@ export class ObjectTable extends Part {
     const { index } = volume;
     const { columns, rows } = this;
     const chosen = new Set(view.now.selection);
-    const from = Math.max(0, Math.floor(this.top / kRow) - kSpare);
-    const to = Math.min(rows.length, Math.ceil((this.top + this.listHeight) / kRow) + kSpare);
+    const [from, to] = rowsAt(this.top, this.listHeight, rows.length);
     const selected = view.now.selection.length ? (i: number) => chosen.has(index.features[i]!.id) : () => false;
     return html`
       ${this.bar()}
       <div class="scroll" role="grid" tabindex="0" aria-label=${lateText("table")} aria-rowcount=${rows.length + 1} aria-colcount=${columns.length} aria-multiselectable="true"
         aria-activedescendant=${this.active >= from && this.active < to ? `line-${this.active}` : nothing} @scroll=${(e: Event) => (this.top = (e.target as HTMLElement).scrollTop)} @keydown=${this.key}>
         <div class="head" role="row" aria-rowindex="1">${columns.map((column, n) => this.header(column, n))}</div>
-        <div class="space" role="rowgroup" data-height=${rows.length * kRow}>${rows.slice(from, to).map((i, n) => this.line(i, from + n, selected(i)))}</div>
+        <div class="space" role="rowgroup" data-height=${rows.length * kGridRow}>${rows.slice(from, to).map((i, n) => this.line(i, from + n, selected(i)))}</div>
       </div>`;
   }
 
@@ -219,7 +205,7 @@ export class ObjectTable extends Part {
   }
 
   private line(i: number, row: number, isSelected: boolean) {
-    return html`<div id="line-${row}" class="line ${row === this.active ? "active" : ""}" role="row" aria-rowindex=${row + 2} aria-selected=${isSelected} data-top=${row * kRow}
+    return html`<div id="line-${row}" class="line ${row === this.active ? "active" : ""}" role="row" aria-rowindex=${row + 2} aria-selected=${isSelected} data-top=${row * kGridRow}
       @click=${(e: MouseEvent) => this.pick(row, e.ctrlKey || e.metaKey)} @dblclick=${() => void this.session.view.goToSelected()}>
       ${this.columns.map(({ cells }) => {
         const cell = cells[i] ?? null;
@@ -228,9 +214,8 @@ export class ObjectTable extends Part {
   }
 
   override updated(): void {
-    this.renderRoot.querySelectorAll<HTMLElement>("[data-top]").forEach((e) => (e.style.transform = `translateY(${e.dataset["top"]}px)`));
+    placeLines(this.renderRoot);
     const space = this.renderRoot.querySelector<HTMLElement>(".space")!;
-    space.style.height = `${space.dataset["height"]}px`;
     space.style.width = `${this.columns.length * kWidth}px`;
   }
 
@@ -242,11 +227,9 @@ export class ObjectTable extends Part {
 
   private readonly key = (event: KeyboardEvent): void => {
     if (event.target !== this.scroller || event.altKey) return;
-    const page = Math.max(1, Math.floor(this.listHeight / kRow) - 2);
-    const steps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page, Home: -Infinity, End: Infinity };
-    const step = steps[event.key];
+    const to = rowOfKey(event.key, this.active, this.rows.length, this.listHeight);
     if (event.key === "Enter" || event.key === " ") this.pick(this.active, event.ctrlKey || event.metaKey);
-    else if (step !== undefined) this.moveTo(Math.min(this.rows.length - 1, Math.max(0, this.active + step)));
+    else if (to !== null) this.moveTo(to);
     else return;
     event.preventDefault();
     event.stopPropagation();
@@ -254,11 +237,7 @@ export class ObjectTable extends Part {
 
   private moveTo(row: number): void {
     this.active = row;
-    const { scroller } = this;
-    const head = this.renderRoot.querySelector<HTMLElement>(".head")!.offsetHeight;
-    const top = row * kRow;
-    if (top < scroller.scrollTop) scroller.scrollTop = top;
-    else if (top + kRow + head > scroller.scrollTop + scroller.clientHeight) scroller.scrollTop = top + kRow + head - scroller.clientHeight;
+    reveal(this.scroller, row);
   }
 
   private selectAll(): void {

@@ -47,9 +47,14 @@ export function cellsOf({ values }: AttributeValues, listed: readonly Feature[],
 /** The features of a class, or of all classes, with all words in any of the columns. */
 export function rowsWith(index: FeatureIndex, columns: readonly Column[], className: string, search: string): number[] {
   const among = className ? (index.classes.get(className) ?? []) : index.features.map((_, i) => i);
+  return withWords(among, columns, search);
+}
+
+/** The rows with all words in any of the columns. */
+export function withWords(rows: readonly number[], columns: readonly Column[], search: string): number[] {
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
-  if (!words.length) return among.slice();
-  return among.filter((i) => {
+  if (!words.length) return rows.slice();
+  return rows.filter((i) => {
     const text = columns
       .map(({ cells }) => cells[i] ?? "")
       .join("\n")

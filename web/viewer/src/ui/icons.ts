@@ -40,6 +40,7 @@ const kPaths = {
   up: "M12 19V5M6 11l6-6 6 6",
   only: "M12 15a3 3 0 1 0 0-6 3 3 0 0 0 0 6ZM4 4l3 3M20 4l-3 3M4 20l3-3M20 20l-3-3",
   table: "M3 5h18v14H3ZM3 10h18M3 14.500h18M9 5v14",
+  sum: "M18 5H6l6 7-6 7h12",
   four: "M3 4h18v16H3ZM12 4v16M3 12h18",
   menu: "M4 7h16M4 12h16M4 17h16",
   parallel: "M4 8l8-5 8 5v8l-8 5-8-5ZM4 8l8 5 8-5M12 13v8",

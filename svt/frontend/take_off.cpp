@@ -1,4 +1,4 @@
-#include <apps/cli/quantities/take_off.hpp>
+#include <svt/frontend/take_off.hpp>
 
 #include <svt/core/attribute.hpp>
 #include <svt/core/names.hpp>
@@ -13,7 +13,7 @@
 #include <numeric>
 #include <string_view>
 
-namespace svt::cli {
+namespace svt::frontend {
 namespace {
 
 using quantities::ObjectQuantities;
@@ -28,6 +28,7 @@ enum Figure : std::size_t {
     kBottom,
     kOuter,
     kExterior,
+    kExteriorCounted,
     kOpening,
     kFormwork,
     kFormworkTop,
@@ -50,6 +51,7 @@ constexpr std::array<FigureText, kFigures> kTexts{{{"netVolume", "net m3", true,
                                                    {"bottomArea", "bottom m2", true, &ObjectQuantities::bottomArea},
                                                    {"outerArea", "", true, &ObjectQuantities::outerArea},
                                                    {"exteriorArea", "exterior m2", true},
+                                                   {"exteriorCountedArea", "", true},
                                                    {"openingArea", "openings m2", true, &ObjectQuantities::openingArea},
                                                    {"formworkArea", "formwork m2", true},
                                                    {"formworkTopArea", "", true},
@@ -64,7 +66,7 @@ using Figures = std::array<Known, kFigures>;
 struct Asked {
     bool exterior = false, formwork = false;
     [[nodiscard]] bool has(std::size_t figure) const {
-        if (figure == kExterior) return exterior;
+        if (figure == kExterior || figure == kExteriorCounted) return exterior;
         return (figure != kFormwork && figure != kFormworkTop) || formwork;
     }
 };
@@ -77,6 +79,7 @@ Figures figuresOf(const TakeOff& takeOff, std::size_t n) {
         if (kTexts[f].quantity != nullptr) figures[f] = object.*kTexts[f].quantity;
     if (!takeOff.exterior.empty() && takeOff.exterior[n])
         figures[kExterior] = std::accumulate(takeOff.exterior[n]->begin(), takeOff.exterior[n]->end(), 0.0);
+    if (!takeOff.exteriorCounted.empty()) figures[kExteriorCounted] = takeOff.exteriorCounted[n];
     if (!takeOff.formwork.empty()) {
         figures[kFormwork] = takeOff.formwork[n];
         figures[kFormworkTop] = takeOff.formworkTop[n];
@@ -242,7 +245,11 @@ std::vector<std::string> takeOffAssumptions(const TakeOff& takeOff) {
         "space that several objects share counts once in sums"};
     if (takeOff.hasExterior) {
         list.emplace_back("north is +y of the coordinate reference system");
-        list.emplace_back("outside air is air that is connected to the border of the model");
+        list.emplace_back(
+            "outside air is air that is connected to the border of the model, through gaps of a voxel or more");
+        list.emplace_back(
+            "closed meshes divide the faces of their neighbours exactly; elsewhere, points do, and "
+            "exteriorCountedArea has the area that they divide");
     }
     if (takeOff.hasFormwork)
         list.emplace_back(
@@ -416,7 +423,7 @@ Json takeOffRowJson(const TakeOff& takeOff, std::size_t n) {
     row["name"] = label.name;
     row["storey"] = jsonOf(takeOff.storeys[n]);
     row["material"] = jsonOf(takeOff.materials[n]);
-    for (const Figure f : {kNet, kGross, kSide, kTop, kBottom, kExterior, kOpening, kFormwork})
+    for (const Figure f : {kNet, kGross, kSide, kTop, kBottom, kExterior, kExteriorCounted, kOpening, kFormwork})
         row[kTexts[f].name] = jsonOf(figures[f]);
     row["trust"] = jsonOf(std::string(nameOf(object.trust)));
     row["bound"] = object.netVolume && object.bound ? Json(*object.bound) : Json();
@@ -449,10 +456,19 @@ Json takeOffJson(const TakeOff& takeOff, bool hasStated) {
     return json;
 }
 
+Table chosenTable(const TakeOff& takeOff, bool hasStated, bool hasSum) {
+    if (hasStated) return statedTable(takeOff);
+    return takeOff.keys.empty() ? takeOffTable(takeOff, hasSum) : takeOffSums(takeOff, hasSum);
+}
+
+std::string takeOffFile(const TakeOff& takeOff, bool hasStated) {
+    return takeOffJson(takeOff, hasStated).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::vector<std::string> takeOffNotes(const TakeOff& takeOff) {
     TakeOffTotals totals;
     totals.add(takeOff);
     return totals.notes();
 }
 
-}  // namespace svt::cli
+}  // namespace svt::frontend

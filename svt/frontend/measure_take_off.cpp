@@ -1,15 +1,14 @@
-#include <apps/cli/quantities/measure_take_off.hpp>
-
-#include <apps/cli/city/feature_sums.hpp>
+#include <svt/frontend/measure_take_off.hpp>
 
 #include <svt/analyze/extents.hpp>
 #include <svt/analyze/selection.hpp>
+#include <svt/frontend/label_values.hpp>
 #include <svt/model/classes.hpp>
 
 #include <numeric>
 #include <utility>
 
-namespace svt::cli {
+namespace svt::frontend {
 namespace {
 
 using quantities::TouchingArea;
@@ -46,7 +45,10 @@ Result<void> addTouchingAreas(const TakeOffQuestion& question, TakeOff& takeOff)
     const std::size_t count = takeOff.objects.size();
     takeOff.hasExterior = question.exterior;
     takeOff.hasFormwork = !question.formwork.empty();
-    if (takeOff.hasExterior) takeOff.exterior.resize(count);
+    if (takeOff.hasExterior) {
+        takeOff.exterior.resize(count);
+        takeOff.exteriorCounted.resize(count);
+    }
     if (takeOff.hasFormwork) {
         takeOff.formwork.resize(count);
         takeOff.formworkTop.resize(count);
@@ -55,8 +57,12 @@ Result<void> addTouchingAreas(const TakeOffQuestion& question, TakeOff& takeOff)
         if (!takeOff.objects[n].outerArea) continue;
         if (question.exterior) {
             auto& exterior = takeOff.exterior[n].emplace();
-            for (const TouchingArea& area : areas[n])
-                if (area.isOutside) exterior[std::size_t(area.facing)] += area.area;
+            double& counted = takeOff.exteriorCounted[n].emplace(0.0);
+            for (const TouchingArea& area : areas[n]) {
+                if (!area.isOutside) continue;
+                exterior[std::size_t(area.facing)] += area.area;
+                counted += area.countedArea;
+            }
         }
         if (isConcrete.empty() || isConcrete[takeOff.objects[n].parts.front()] == 0) continue;
         takeOff.formwork[n] = takeOff.formworkTop[n] = 0;
@@ -85,18 +91,54 @@ void addTexts(const TakeOffQuestion& question, TakeOff& takeOff) {
     takeOff.storeys = valuesOf("storey");
     takeOff.materials = valuesOf("material");
     takeOff.keys = splitKeys(question.by);
-    takeOff.values.resize(takeOff.objects.size());
+    takeOff.values.assign(takeOff.objects.size(), {});
     for (const std::string& key : takeOff.keys) {
         std::vector<std::string> values = valuesOf(key);
         for (std::size_t n = 0; n < values.size(); ++n) takeOff.values[n].push_back(std::move(values[n]));
     }
 }
 
-Result<void> completeTakeOff(const TakeOffQuestion& question, TakeOff& takeOff) {
+Result<void> completeTakeOff(const TakeOffQuestion& question, TakeOff& takeOff, const Progress* progress) {
+    Progress::tell(progress, "share", 0);
     takeOff.counted = quantities::countedVolumes(takeOff.volume, takeOff.objects);
-    if (question.exterior || !question.formwork.empty()) SVT_DO(addTouchingAreas(question, takeOff));
+    if (question.exterior || !question.formwork.empty()) {
+        Progress::tell(progress, "touch", 0);
+        SVT_DO(addTouchingAreas(question, takeOff));
+    }
     addTexts(question, takeOff);
     return {};
 }
 
-}  // namespace svt::cli
+Result<std::vector<std::uint32_t>> findObjects(const volume::SemanticVolume& volume, const std::string& query,
+                                               std::vector<std::string>& notes) {
+    if (!query.empty()) {
+        SVT_TRY(selected, analyze::selectLabels(volume, query));
+        return quantities::objectsOf(volume, *selected);
+    }
+    std::vector<std::uint32_t> objects = quantities::defaultObjects(volume);
+    if (!objects.empty() && !quantities::isComponent(volume.labels.labels[objects.front()]))
+        notes.emplace_back(
+            "the model has no walls, slabs or other components; the rows are its buildings, rooms and other objects");
+    return objects;
+}
+
+Result<TakeOff> measureTakeOff(const volume::SemanticVolume& volume, const TakeOffQuestion& question,
+                               std::vector<std::string>& notes, const Progress* progress) {
+    if (volume.vectors.triangles.empty()) notes.emplace_back(kNoMeshes);
+    auto objects = findObjects(volume, question.where, notes);
+    if (!objects && objects.error().code() == Code::NothingSelected) {
+        // An answer, not an error: the query is valid, but selects no feature.
+        notes.push_back(objects.error().message());
+        objects = std::vector<std::uint32_t>();
+    }
+    if (!objects) return objects.error();
+    Progress::tell(progress, "measure", 0);
+    TakeOff takeOff{volume, quantities::measureObjects(volume, *objects, question.threads)};
+    SVT_DO(completeTakeOff(question, takeOff, progress));
+    if (takeOff.objects.empty())
+        notes.emplace_back("no objects are measured; use --where with a query that selects objects");
+    for (std::string& text : takeOffNotes(takeOff)) notes.push_back(std::move(text));
+    return takeOff;
+}
+
+}  // namespace svt::frontend
