@@ -27,7 +27,11 @@ std::uint32_t BoxTree::build(std::uint32_t begin, std::uint32_t end, Halving hal
     nodes_[index].box = box;
     nodes_[index].begin = begin;
     nodes_[index].end = end;
-    if (end - begin <= halving.leafSize) return index;
+    if (end - begin <= halving.leafSize) {
+        // nth_element() leaves them in an order that depends on the standard library.
+        std::sort(order_.begin() + begin, order_.begin() + end);
+        return index;
+    }
     const Vec3d size = (halving.usesCenters ? centers : box).size();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::uint32_t middle = begin + (end - begin) / 2;
