@@ -128,7 +128,7 @@ test("properties, neighbours and selections are rows of 'svt query'", () => {
   assert.equal(ask("properties", "house_hidden_beam").floorArea, null);
   for (const row of selected) {
     const properties = ask("properties", row.id);
-    assert.equal(properties.floorArea, areas.get(row.id));
+    assert.equal(properties.floorArea, areas.get(row.id) ?? null);
     assert.equal(properties.surface, row.ownSurface.area);
     assert.equal(properties.totalSurface, row.totalSurface.area);
     assert.equal(properties.voxelVolume, row.ownVoxels * voxelVolume(grid));
