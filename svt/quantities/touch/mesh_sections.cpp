@@ -82,6 +82,18 @@ MeshSections::MeshSections(const volume::SemanticVolume& volume)
     boxes_ = plane::BoxTree(std::move(boxes));
 }
 
+std::optional<std::vector<std::uint32_t>> MeshSections::bodiesNear(const Box3d& box, std::size_t most) const {
+    std::vector<std::uint32_t> found;
+    const bool areMore = boxes_.visit([&](const Box3d& other) { return other.overlaps(box); },
+                                      [&](std::uint32_t body) {
+                                          found.push_back(body);
+                                          return found.size() > most;
+                                      });
+    if (areMore) return std::nullopt;
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
 void MeshSections::addSection(std::uint32_t body, const SectionPlane& plane, std::uint32_t claim,
                               std::vector<FlatSegment>& segments) const {
     const Vec3d n = plane.normal;

@@ -8,7 +8,9 @@
 #include <svt/volume/semantic_volume.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -43,6 +45,8 @@ public:
 
     /// The bodies whose boxes overlap a box, ascending, and so by label.
     [[nodiscard]] std::vector<std::uint32_t> bodiesNear(const Box3d& box) const { return boxes_.findAll(box); }
+    /// The same, but nothing if there are more than `most`. Cost: O(log n + most).
+    [[nodiscard]] std::optional<std::vector<std::uint32_t>> bodiesNear(const Box3d& box, std::size_t most) const;
     [[nodiscard]] std::uint32_t labelOf(std::uint32_t body) const noexcept { return bodies_[body].label; }
 
     /// Appends the section of a body. Points of edges that triangles share are equal to the last bit.

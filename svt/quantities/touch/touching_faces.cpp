@@ -25,6 +25,7 @@ constexpr int kMostSteps = 3, kMostStepsThroughSheets = 5;  // of half a voxel
 constexpr std::int32_t kAround = 2;                         // voxels around a point that has no air in front
 constexpr std::size_t kMostAsked = 12;                      // of them
 constexpr double kMostPoints = 20000, kLeastPoints = 8;
+constexpr std::size_t kMostBodies = 1000;       // around a face that is divided exactly
 constexpr std::size_t kMostSegments = 2000000;  // of sections in front of the faces of one object
 constexpr double kTouching = 1e-4;              // metres: bodies this near in front of a face touch it
 constexpr double kGap = 0.01;                   // metres: bodies across a gap of this size touch a face, too
@@ -113,7 +114,9 @@ private:
         std::vector<FlatSegment> segments;
         std::vector<std::uint32_t> labels{part};  // by claim
         Around around{own, {}};
-        for (const std::uint32_t body : sections_.bodiesNear(plane::grown(box, kGap))) {
+        const auto bodies = sections_.bodiesNear(plane::grown(box, kGap), kMostBodies);
+        if (!bodies) return addTriangles(face, around, areas, true);
+        for (const std::uint32_t body : *bodies) {
             const std::uint32_t label = sections_.labelOf(body);
             if (label == part) continue;
             if (!isOneOf(label, own)) around.near.push_back(body);
