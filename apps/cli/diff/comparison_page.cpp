@@ -18,7 +18,7 @@
 namespace svt::cli {
 namespace {
 
-using compare::Change, compare::ComparisonRow;
+using compare::Change;
 
 constexpr std::size_t kMostRows = 2000;
 constexpr std::size_t kMostStoreys = 24;  // with pictures

@@ -9,7 +9,7 @@
 namespace svt::cli {
 namespace {
 
-using compare::Change, compare::ComparisonRow;
+using compare::ComparisonRow;
 
 Cell cellOf(const std::optional<double>& value) { return value ? Cell(withoutRounding(*value)) : Cell(); }
 

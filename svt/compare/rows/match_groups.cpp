@@ -181,7 +181,7 @@ private:
     }
 
     template <class KeyOf>
-    std::size_t countAmbiguous(const KeyOf& keyOf) const {
+    [[nodiscard]] std::size_t countAmbiguous(const KeyOf& keyOf) const {
         std::map<GroupKey, std::pair<std::size_t, std::size_t>> open;
         for (std::uint32_t l = 0; l < was_.labels.size(); ++l)
             if (was_.isOpen(l)) ++open[keyOf(was_.labels[l])].first;
