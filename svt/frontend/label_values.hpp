@@ -15,10 +15,10 @@ namespace svt::frontend {
 /// The keys of a list such as "material,storey".
 [[nodiscard]] std::vector<std::string> splitKeys(std::string_view keys);
 
-/// The value of each label for a key, empty: none. The keys `class`, `name`, `id`, `ifcType`,
-/// `material` and `color` (#rrggbb, as in the volume) describe the finest feature that contains the label. `storey` is the storey that contains the label. All
-/// other keys are attributes, like keys in quotes. A feature without one has that of the next feature around it: a room
-/// has the owner of its flat.
+/// The value of each label for a key, empty: none. The keys `class`, `name`, `id`, `ifcType`, `material` and `color`
+/// (#rrggbb, as in the volume) describe the finest feature that contains the label. `storey` is the storey that contains
+/// the label. All other keys are attributes, like keys in quotes. A feature without one has that of the next feature
+/// around it: a room has the owner of its flat.
 /// \param features  that have values, ascending
 /// Cost: O(labels of all extents of the features).
 [[nodiscard]] std::vector<std::string> valuesOfKey(const std::string& key, const volume::LabelTable& table,

@@ -31,9 +31,10 @@ inline constexpr const char* kNoMeshes =
                                                              const std::string& query, std::vector<std::string>& notes);
 
 /// The take-off of a volume as `svt quantities` makes it. A query that selects nothing gives no rows and a note.
-/// \param notes     gets what the command prints beside the figures
+/// \param notes     gets the notes that the command prints beside the figures
 /// \param progress  gets the stages "measure", "share" and "touch"; may be null
 /// \return the take-off, which refers to the volume; or an error of a query
+/// Cost: that of quantities::measureObjects(), countedVolumes() and, for exterior and formwork, findTouchingAreas().
 [[nodiscard]] Result<TakeOff> measureTakeOff(const volume::SemanticVolume& volume, const TakeOffQuestion& question,
                                              std::vector<std::string>& notes, const Progress* progress = nullptr);
 

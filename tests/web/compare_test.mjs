@@ -2,34 +2,10 @@
 // by ctest, or by
 //   node tests/web/compare_test.mjs COMMAND MODULE_FOLDER
 import assert from "node:assert/strict";
-import { execFileSync, spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
-import { after, test } from "node:test";
-import { pathToFileURL } from "node:url";
-
-const [command, moduleFolder] = process.argv.slice(2).map((path) => resolve(path));
-if (!existsSync(join(moduleFolder, "svt_reports.js"))) {
-  console.log(`no module at ${moduleFolder}; 'make web' builds it`);
-  process.exit(77);
-}
-// What the module asks of a browser.
-Object.assign(globalThis, { self: { location: { href: pathToFileURL(join(moduleFolder, "svt_reports.js")).href } } });
-const { default: createSvt } = await import(self.location.href);
-
-const folder = mkdtempSync(join(tmpdir(), "svt-compare-"));
-after(() => rmSync(folder, { recursive: true }));
-const at = (name) => join(folder, name);
-const run = (...args) => execFileSync(command, args, { stdio: ["ignore", "pipe", "pipe"], maxBuffer: 1 << 28 });
-
-const steps = [];
-const svt = await createSvt({
-  wasmBinary: readFileSync(join(moduleFolder, "svt_reports.wasm")),
-  onProgress: (step, done) => steps.push([step, done]),
-});
-const ask = (name) => JSON.parse(new TextDecoder().decode(svt.call(name, [])));
-const bytes = (name) => Buffer.from(svt.call(name, []));
+import { spawnSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import { test } from "node:test";
+import { ask, at, bytes, command, run, steps, svt } from "./reports_module.mjs";
 
 /** Compares two states, each a path or several, and returns the report. */
 function compare(old, is, wish = {}) {

@@ -1,41 +1,19 @@
 // The WebAssembly module that measures quantities, against `svt quantities`: the same files, byte by byte. Run by ctest, or by
 //   node tests/web/quantities_test.mjs COMMAND MODULE_FOLDER [DATA_FOLDER]
 import assert from "node:assert/strict";
-import { execFileSync, spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
-import { after, test } from "node:test";
-import { pathToFileURL } from "node:url";
+import { spawnSync } from "node:child_process";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { ask, at, bytes, command, dataFolder, folder, run, steps, svt } from "./reports_module.mjs";
 
-const [command, moduleFolder, dataFolder] = process.argv.slice(2).map((path) => resolve(path));
-if (!existsSync(join(moduleFolder, "svt_reports.js"))) {
-  console.log(`no module at ${moduleFolder}; 'make web' builds it`);
-  process.exit(77);
-}
-// What the module asks of a browser.
-Object.assign(globalThis, { self: { location: { href: pathToFileURL(join(moduleFolder, "svt_reports.js")).href } } });
-const { default: createSvt } = await import(self.location.href);
-
-const folder = mkdtempSync(join(tmpdir(), "svt-quantities-"));
-after(() => rmSync(folder, { recursive: true }));
-const at = (name) => join(folder, name);
-const run = (...args) => execFileSync(command, args, { stdio: ["ignore", "pipe", "pipe"], maxBuffer: 1 << 28 });
-
-const steps = [];
-const svt = await createSvt({
-  wasmBinary: readFileSync(join(moduleFolder, "svt_reports.wasm")),
-  onProgress: (step, done) => steps.push([step, done]),
-});
-const ask = (name, args = [], bytes = undefined) => JSON.parse(new TextDecoder().decode(svt.call(name, args, bytes)));
-const bytes = (name, ...args) => Buffer.from(svt.call(name, args));
 const read = (...paths) => {
   const files = paths.map((path) => ({ name: path.split("/").pop(), content: readFileSync(path) }));
   const sizes = files.map(({ content }) => content.length);
   return ask("readModel", [files.map(({ name }) => name), sizes, {}], Buffer.concat(files.map(({ content }) => content)));
 };
 
-/** What `svt quantities` writes into a file, and its notes without the findings of the reader. */
+/** The file that `svt quantities` writes, and its notes without the findings of the reader. */
 function quantities(input, ending, ...options) {
   const file = at(`out.${ending}`);
   const done = spawnSync(command, ["quantities", input, "-o", file, ...options], { encoding: "utf8" });

@@ -39,7 +39,7 @@ export async function compareStates(
   }
 }
 
-/** The reason why there is no difference volume: the states have no common samples, or too many objects. */
+/** The reason for a missing difference volume: the states share no samples, or have too many objects. */
 function reasonOf(error: EngineError): string {
   const { code, message } = error;
   if (code === kCancelled || isFatal(error)) throw error;
