@@ -249,9 +249,11 @@ describe("languages", () => {
     await visit.message("languages/eo.json");
     assert.equal(await inPage("s.languages.current"), "tlh");
     await choice.selectOption("de");
+    await visit.until("s.languages.current === 'de'");
     const [id] = await inPage("s.volume.engine.select('class=IfcDoor')");
     await inPage("s.selection.select([v])", id);
-    const properties = await inPage("(async () => { await new Promise((r) => setTimeout(r, 500)); return s.selection.properties; })()");
+    await visit.until("s.selection.properties");
+    const properties = await inPage("s.selection.properties");
     const text = (await visit.page.locator("svt-properties dl, svt-properties table").allInnerTexts()).join("\n");
     assert.ok(text.includes(`${properties.surface.toFixed(2).replace(".", ",")} m²`), text);
     for (const [key, { value }] of Object.entries(properties.numbers)) {
