@@ -179,7 +179,7 @@ std::vector<std::optional<OpeningPlace>> placesOf(const volume::SemanticVolume& 
 struct OpeningKey {
     bool isWindow = false;
     std::string type;
-    std::array<long, 4> size{-1, -1, -1, -1};
+    std::array<long, 5> size{-1, -1, -1, -1, -1};
     friend bool operator<(const OpeningKey& a, const OpeningKey& b) {
         return std::tie(a.isWindow, a.type, a.size) < std::tie(b.isWindow, b.type, b.size);
     }
@@ -187,6 +187,25 @@ struct OpeningKey {
 
 // Points of meshes are whole micrometres; sizes do not show this rounding.
 double roundedSize(double metres) { return std::round(metres * 1e5) / 1e5 + 0.0; }
+
+// The clear width of a door, as its file states it, or between its linings.
+std::optional<double> clearWidthOf(const volume::Label& label, const std::optional<double>& statedWidth) {
+    constexpr std::string_view kNames[] = {"clearwidth",          "clearopeningwidth", "cleardoorwidth",
+                                           "lichtebreite",        "durchgangsbreite",  "lichtedurchgangsbreite",
+                                           "lichtet\u00FCrbreite"};
+    for (const Attribute& attribute : label.attributes) {
+        if (attribute.unit != "m") continue;
+        std::string name = lowerAscii(attribute.name.substr(attribute.name.rfind('.') + 1));
+        std::erase_if(name, [](char c) { return c == ' ' || c == '_' || c == '-'; });
+        const auto* width = std::get_if<double>(&attribute.value);
+        if (width != nullptr && *width > 0 && std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames))
+            return *width;
+    }
+    const auto lining = numberOf(label, "liningThickness");
+    const bool swings = openingText(label, "operationType").find("SWING") != std::string::npos;
+    if (!swings || !statedWidth || !lining || !(*statedWidth > 2 * *lining)) return std::nullopt;
+    return roundedSize(*statedWidth - 2 * *lining);
+}
 
 // Surfaces of doors and windows count only where the model has no bodies of their kind. The two sides of a wall count
 // once, also those of doors and windows without thickness: a surface is left out if another one of its size is nearer
@@ -210,6 +229,7 @@ OpeningRow rowOf(const volume::Label& label, const std::optional<OpeningPlace>& 
     row.level = level;
     row.statedWidth = numberOf(label, "overallWidth");
     row.statedHeight = numberOf(label, "overallHeight");
+    if (row.isDoor) row.clearWidth = clearWidthOf(label, row.statedWidth);
     if (!place) return row;
     row.measuredWidth = roundedSize(place->width);
     row.measuredHeight = roundedSize(place->height);
@@ -255,10 +275,11 @@ OpeningSchedule scheduleOpenings(const volume::SemanticVolume& volume, std::span
             if (isOtherSide(*place, row.isDoor, surfaces)) continue;
             surfaces.emplace_back(row.isDoor, *place);
         }
-        const OpeningKey key{!row.isDoor,
-                             row.type,
-                             {millimetresOf(row.statedWidth), millimetresOf(row.statedHeight),
-                              millimetresOf(row.measuredWidth), millimetresOf(row.measuredHeight)}};
+        const OpeningKey key{
+            !row.isDoor,
+            row.type,
+            {millimetresOf(row.statedWidth), millimetresOf(row.statedHeight), millimetresOf(row.measuredWidth),
+             millimetresOf(row.measuredHeight), millimetresOf(row.clearWidth)}};
         const auto [known, isNew] = lowest.try_emplace(key, row.level);
         if (!isNew) known->second = std::min(known->second, row.level);
         OpeningRow& group = groups[key].try_emplace(row.level, row).first->second;

@@ -652,6 +652,9 @@ TEST(DrawingFacts, AreAttributesInMetres) {
         "#112=IFCPOLYLINE((#113,#114));\n"
         "#113=IFCCARTESIANPOINT((-1000.,0.));\n"
         "#114=IFCCARTESIANPOINT((9000.,500.));\n"
+        "#115=IFCDOORLININGPROPERTIES('lining',$,'L',$,100.,50.,$,$,$,$,$,$,$,$,$,$,$);\n"
+        "#116=IFCDOORTYPE('type',$,'T',$,$,(#115),$,$,$,.DOOR.,.SINGLE_SWING_LEFT.,$,$);\n"
+        "#117=IFCRELDEFINESBYTYPE('relation',$,$,$,(#100),#116);\n"
         "#120=IFCPOSTALADDRESS($,$,$,'Hall 2',('Lake Road 3'),$,'Town','ZH\\X\\0D','8001','CH');\n",
         "#100,#101,#102,#103");
     const auto replace = [&](const std::string& from, const std::string& to) {
@@ -663,6 +666,7 @@ TEST(DrawingFacts, AreAttributesInMetres) {
     ASSERT_TRUE(model) << model.error().message();
     EXPECT_EQ(attribute(*find(*model, "door"), "overallWidth"), "0.885 m");
     EXPECT_EQ(attribute(*find(*model, "door"), "overallHeight"), "2.01 m");
+    EXPECT_EQ(attribute(*find(*model, "door"), "liningThickness"), "0.05 m");
     EXPECT_EQ(attribute(*find(*model, "window"), "overallHeight"), "1.2 m");
     EXPECT_EQ(attribute(*find(*model, "window"), "overallWidth"), "none");
     EXPECT_EQ(attribute(*find(*model, "flight"), "numberOfRisers"), "16");

@@ -150,6 +150,9 @@ void Properties::appendSet(RecordIndex set, std::vector<Attribute>& attributes) 
     const Fields fields = file_.fieldsOf(set);
     const std::string name = fields[at::Root::Name].string().value_or("");
     const Entity entity = file_.entityOf(set);
+    if (entity == Entity::DoorLiningProperties)
+        if (const auto thickness = fields[at::DoorLiningProperties::LiningThickness].number(); thickness > 0)
+            replaceOrAdd(attributes, {"liningThickness", converted(*thickness, units_.length), "m"});
     if (entity != Entity::PropertySet && entity != Entity::ElementQuantity) return;
     const Value members = entity == Entity::PropertySet ? fields[at::PropertySet::HasProperties]
                                                         : fields[at::ElementQuantity::Quantities];

@@ -21,7 +21,8 @@ public:
     Properties(const IfcFile& file, const Units& units);
 
     /// Attributes of an object in addition to its own: `Pset_WallCommon.IsExternal`, `BaseQuantities.NetVolume`,
-    /// `type`, `material`, `materialLayers`, `classification`. A property of the object replaces one of its type.
+    /// `type`, `material`, `materialLayers`, `classification`, and `liningThickness` of doors (metres). A property of
+    /// the object replaces one of its type.
     void append(RecordIndex object, std::vector<Attribute>& attributes) const;
 
     /// Types that define an object.

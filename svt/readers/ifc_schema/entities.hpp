@@ -181,7 +181,8 @@ namespace svt::readers::ifc {
     E(BSplineCurveWithKnots, BSplineCurve, KnotMultiplicities, Knots, KnotSpec) \
     E(RationalBSplineCurveWithKnots, BSplineCurveWithKnots, WeightsData) E(BezierCurve, BSplineCurve) \
     E(SurfaceCurve, None, Curve3D) E(SeamCurve, SurfaceCurve) E(IntersectionCurve, SurfaceCurve) \
-    E(PropertySet, Root, HasProperties) E(PropertySingleValue, Property, NominalValue, Unit) \
+    E(PropertySet, Root, HasProperties) E(DoorLiningProperties, Root, LiningDepth, LiningThickness) \
+    E(PropertySingleValue, Property, NominalValue, Unit) \
     E(PropertyEnumeratedValue, Property, EnumerationValues) E(PropertyListValue, Property, ListValues) \
     E(PropertyBoundedValue, Property, UpperBoundValue, LowerBoundValue) \
     E(ComplexProperty, Property, UsageName, HasProperties) \

@@ -7,7 +7,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace svt::writers {
@@ -35,6 +39,11 @@ SheetTable tableOfOpenings(const drawing::OpeningSchedule& openings, const std::
                       {std::string(sheetWord(SheetWord::Count, language)), true}},
                      {},
                      1};
+    const bool hasClear = std::any_of(openings.rows.begin(), openings.rows.end(), [&](const drawing::OpeningRow& row) {
+        return row.isDoor == ofDoors && row.clearWidth;
+    });
+    constexpr std::ptrdiff_t kClear = 5;  // behind the measured width
+    if (hasClear) table.columns.insert(table.columns.begin() + kClear, {word(SheetWord::WidthClear), true});
     std::size_t count = 0;
     const auto size = [&](const std::optional<double>& metres) {
         return metres ? numberText(*metres, 3, language) : std::string("\u2013");
@@ -44,11 +53,13 @@ SheetTable tableOfOpenings(const drawing::OpeningSchedule& openings, const std::
         table.rows.push_back({row.mark, row.type, levelText(levels, row.level, language), size(row.statedWidth),
                               size(row.measuredWidth), size(row.statedHeight), size(row.measuredHeight), size(row.sill),
                               fmt::format("{}", row.labels.size())});
+        if (hasClear) table.rows.back().insert(table.rows.back().begin() + kClear, size(row.clearWidth));
         count += row.labels.size();
     }
     if (count == 0) return {};
     table.rows.push_back(
         {"", std::string(sheetWord(SheetWord::Total, language)), "", "", "", "", "", "", fmt::format("{}", count)});
+    if (hasClear) table.rows.back().insert(table.rows.back().begin() + kClear, "");
     return table;
 }
 
@@ -69,7 +80,7 @@ Table openingTable(const drawing::OpeningSchedule& schedule, const std::vector<d
                    const volume::LabelTable& labels) {
     Table table;
     for (const char* name : {"mark", "kind", "type", "storey", "overallWidth", "overallHeight", "measuredWidth",
-                             "measuredHeight", "sill", "count", "ids"})
+                             "measuredHeight", "clearWidth", "sill", "count", "ids"})
         table.columns.push_back({name});
     for (const drawing::OpeningRow& row : schedule.rows) {
         std::vector<std::string> ids;
@@ -77,7 +88,7 @@ Table openingTable(const drawing::OpeningSchedule& schedule, const std::vector<d
         table.rows.push_back({row.mark, row.isDoor ? "door" : "window", row.type,
                               levelText(levels, row.level, SheetLanguage::English), cellOf(row.statedWidth),
                               cellOf(row.statedHeight), cellOf(row.measuredWidth), cellOf(row.measuredHeight),
-                              cellOf(row.sill), row.labels.size(), std::move(ids)});
+                              cellOf(row.clearWidth), cellOf(row.sill), row.labels.size(), std::move(ids)});
     }
     return table;
 }

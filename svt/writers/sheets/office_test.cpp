@@ -445,17 +445,20 @@ TEST(SheetLegend, NamesOnlyTheHatchesOfTheSheet) {
     }
 }
 
-// One door type in two sizes and a window: three marks, in plan and schedule.
+// One door type in two sizes and a window: three marks, in plan and schedule. A property with the clear width is preferred
+// to the linings.
 TEST(OpeningMarks, OfThePlanAreThoseOfTheSchedule) {
     House house;
     house.addRow(4, 3);
-    const auto addDoor = [&](const std::string& id, double x, double width) {
+    const auto addDoor = [&](const std::string& id, double x, double width) -> std::vector<Attribute>& {
         volume::Label& door = house.add(id, "Door", {x, 0, 0}, {x + width, 0.2, 2.01});
-        door.attributes = {{"overallWidth", 0.885, "m"}, {"overallHeight", 2.01, "m"}};
+        door.attributes = {{"overallWidth", 0.885, "m"}, {"overallHeight", 2.01, "m"}, {"liningThickness", 0.05, "m"}};
+        return door.attributes;
     };
-    addDoor("door1", 1, 0.885);
-    addDoor("door2", 4.4, 0.885);
-    addDoor("door3", 7.6, 1.01);
+    addDoor("door1", 1, 0.885).push_back({"operationType", "SINGLE_SWING_LEFT", ""});
+    addDoor("door2", 4.4, 0.885).push_back({"operationType", "SINGLE_SWING_RIGHT", ""});
+    addDoor("door3", 7.6, 1.01).push_back({"Doors.Clear Width", 0.8, "m"});
+    addDoor("door4", 10.6, 1.01).push_back({"operationType", "SLIDING_TO_LEFT", ""});
     house.add("window", "Window", {2, 1.7, 0.9}, {3.2, 1.9, 2.1});
     drawing::SheetSet set;
     set.tables = false;
@@ -463,9 +466,10 @@ TEST(OpeningMarks, OfThePlanAreThoseOfTheSchedule) {
     ASSERT_TRUE(content.openings);
     const Table table = openingTable(*content.openings, content.levels, house.volume.labels);
     const std::string csv = makeCsv(table);
-    EXPECT_NE(csv.find("D1,door,,EG,0.885,2.01,0.885,2.01,0,2,door1 door2"), std::string::npos) << csv;
-    EXPECT_NE(csv.find("D2,door,,EG,0.885,2.01,1.01,2.01,0,1,door3"), std::string::npos) << csv;
-    EXPECT_NE(csv.find("W1,window,,EG,,,1.2,1.2,0.9,1,window"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("D1,door,,EG,0.885,2.01,0.885,2.01,0.785,0,2,door1 door2"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("D3,door,,EG,0.885,2.01,1.01,2.01,0.8,0,1,door3"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("D2,door,,EG,0.885,2.01,1.01,2.01,,0,1,door4"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("W1,window,,EG,,,1.2,1.2,,0.9,1,window"), std::string::npos) << csv;
     SheetOptions options{.scale = 50, .paper = "A2"};
     const auto sheets = *makeSvgSheets(content, house.volume, options);
     EXPECT_EQ(countTexts({sheets.front()}, ".='D1'"), 2u);
@@ -473,6 +477,9 @@ TEST(OpeningMarks, OfThePlanAreThoseOfTheSchedule) {
     EXPECT_EQ(countTexts({sheets.front()}, ".='W1'"), 1u);
     EXPECT_EQ(countTexts({sheets.back()}, ".='D1'"), 1u);  // the table
     EXPECT_EQ(countTexts({sheets.back()}, ".='Doors' or .='Windows'"), 2u);
+    EXPECT_EQ(countTexts({sheets.back()}, ".='clear'"), 1u);
+    EXPECT_EQ(countTexts({sheets.back()}, ".='0.785'"), 1u);
+    EXPECT_EQ(countTexts({sheets.back()}, ".='0.800'"), 1u);
 }
 
 // The jambs of a deep wall have more area than the pane: before, they decided the width, and sills the height.

@@ -86,6 +86,7 @@ constexpr Term<SheetWord> kWords[] = {
     {W::Mark, "Mark", "Pos."},
     {W::Width, "Width m", "Breite m"},
     {W::WidthMeasured, "measured", "gemessen"},
+    {W::WidthClear, "clear", "licht"},
     {W::HeightMeasured, "measured", "gemessen"},
     {W::Sill, "Sill m", "Brüstung m"},
     {W::Revisions, "Revisions", "Änderungen"},

@@ -81,6 +81,7 @@ enum class SheetWord : std::uint8_t {
     Mark,
     Width,
     WidthMeasured,
+    WidthClear,
     HeightMeasured,
     Sill,
     Revisions,

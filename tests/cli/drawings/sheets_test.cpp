@@ -131,11 +131,11 @@ TEST(Sheets, TheTitleBlockAndTheScheduleAreFilled) {
     for (const char* text : {">A-100-1<", ">M. Smith<", ">Town hall<", ">Materials<", ">Masonry<", ">Floor plan<"})
         EXPECT_NE(sheet.find(text), std::string::npos) << text;
     const std::string csv = readText(folder / "openings.csv");
-    EXPECT_TRUE(
-        csv.starts_with("mark,kind,type,storey,overallWidth,overallHeight,measuredWidth,measuredHeight,sill,count,"))
+    EXPECT_TRUE(csv.starts_with(
+        "mark,kind,type,storey,overallWidth,overallHeight,measuredWidth,measuredHeight,clearWidth,sill,count,"))
         << csv;
     // The entrance door: 1.11 x 2.25 m, as stated and as measured.
-    EXPECT_TRUE(std::regex_search(csv, std::regex("D[0-9]+,door,door,Ground floor,1\\.11,2\\.25,1\\.11,2\\.25,0,1,")))
+    EXPECT_TRUE(std::regex_search(csv, std::regex("D[0-9]+,door,door,Ground floor,1\\.11,2\\.25,1\\.11,2\\.25,,0,1,")))
         << csv;
     EXPECT_TRUE(std::regex_search(sheet, std::regex(">D[0-9]+<")));
     EXPECT_TRUE(std::regex_search(sheet, std::regex(">W[0-9]+<")));
