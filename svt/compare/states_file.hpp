@@ -8,7 +8,7 @@
 ///     | states/was.svt     | the old state
 ///     | states/is.svt      | the new state
 
-#include <svt/compare/comparison.hpp>
+#include <svt/compare/compare_states.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -16,25 +16,16 @@
 
 namespace svt::compare {
 
-/// Two volumes and their comparison.
-struct ComparedStates {
-    volume::SemanticVolume was, is;
-    Comparison comparison;    ///< rows without names of attributes
-    double tolerance = 0.01;  ///< metres, of the comparison
-};
-
 /// Writes a difference volume with its states, atomically. Other programs read it like any `.svt`.
 /// \param difference  of makeDifferenceVolume()
-/// \param shift       metres by which the new volume was moved for the comparison; the file has both states moved back, so
-///                    that the new one has its own coordinates
+/// \param compared    the file has both states moved back by its shift, so that the new one has its own coordinates
 /// \return bytes written, or an error of volume::writeSvt()
 /// Cost: that of writing three volumes. Memory: their files.
-[[nodiscard]] Result<std::uint64_t> writeDifference(const volume::SemanticVolume& difference,
-                                                    const volume::SemanticVolume& was, const volume::SemanticVolume& is,
-                                                    const Comparison& comparison, double tolerance, Vec3d shift,
+[[nodiscard]] Result<std::uint64_t> writeDifference(const volume::SemanticVolume& difference, const Compared& compared,
                                                     const std::filesystem::path& path);
 
-/// The states of a file of writeDifference().
+/// The states of a file of writeDifference(). Rows lack the names of attributes, options other than the tolerance are the
+/// defaults, and both states are in their own coordinates.
 /// \return empty for files without states; BadVolume if its entries contradict each other; errors of volume::readSvt()
 /// Cost: O(1) for other files: the central directory is read.
 [[nodiscard]] Result<std::optional<ComparedStates>> readStates(const std::filesystem::path& path);

@@ -1,7 +1,7 @@
 // Compares two states of a building: files in; rows, and a volume of the difference out.
 #include "reports.hpp"
 
-#include <svt/compare/compared.hpp>
+#include <svt/compare/compare_states.hpp>
 #include <svt/compare/difference_volume.hpp>
 #include <svt/frontend/comparison_json.hpp>
 #include <svt/image/color_text.hpp>
@@ -17,42 +17,13 @@
 namespace svt::web {
 namespace {
 
-// Two states and their comparison, which refers to them.
-struct Comparing {
-    volume::SemanticVolume was, is;
-    compare::Comparison comparison;
-    compare::CompareOptions options;
-    Vec3d shift{};
-
-    [[nodiscard]] compare::Compared compared() const { return {was, is, comparison, {}, {}, shift, options}; }
-};
-std::unique_ptr<Comparing> comparing;
+std::unique_ptr<compare::ComparedStates> comparing;
 
 struct Wish {
     compare::CompareOptions options;
     bool isAligned = false;
     std::uint64_t memoryBytes = 0;  // limit of each volume without a given spacing; 0: as for `svt diff`
 };
-
-// Moves the new state to the old one; a model is built again, so that its samples coincide after the move. Returns how
-// it ended: "moved", "aligned" (no translation is necessary) or "notFound".
-Result<std::string_view> alignStates(Comparing& states, const Files& files, const Wish& wish, const Progress& progress,
-                                     Diagnostics& findings) {
-    const auto offset = compare::estimateTranslation(states.was, states.is, wish.options.tolerance);
-    if (!offset) return std::string_view("notFound");
-    if (length(*offset) <= wish.options.tolerance) return std::string_view("aligned");
-    if (!isVolume(files)) {
-        const volume::Grid& grid = states.was.grid;
-        SVT_TRY(shifted,
-                volume::Grid::fromParts(grid.dimension(), grid.spacing(), grid.origin() + *offset, grid.axes()));
-        SVT_TRY(again, readVolume(files, wish.memoryBytes, &*shifted, progress, findings));
-        states.is = std::move(*again);
-    }
-    SVT_TRY(moved, compare::translated(states.is, -*offset));
-    states.is = std::move(*moved);
-    states.shift = -*offset;
-    return std::string_view("moved");
-}
 
 Result<Wish> wishOf(const Json& given) {
     Wish wish;
@@ -76,10 +47,10 @@ Result<Wish> wishOf(const Json& given) {
 Json knownOrNull(const std::optional<double>& value) { return value ? Json(compare::withoutRounding(*value)) : Json(); }
 
 // The Report of the page (web/viewer/src/comparing/compared.ts).
-std::string reportOf(const Comparing& states, std::string_view aligned, const Diagnostics& findings) {
+std::string reportOf(const compare::ComparedStates& states, const Diagnostics& findings) {
     const compare::Comparison& comparison = states.comparison;
     const compare::ClassSums sums = compare::sumsOfComponents(states.compared());
-    Json report{{"aligned", aligned},
+    Json report{{"aligned", nameOf(states.alignment)},
                 {"shift", Json::array({states.shift.x, states.shift.y, states.shift.z})},
                 {"hasMeshes", !states.was.vectors.triangles.empty() && !states.is.vectors.triangles.empty()},
                 {"overlaps", compare::overlapInSpace(states.was.grid, states.is.grid)},
@@ -114,31 +85,21 @@ Result<Reply> compareFiles(const Arguments& arguments) {
     SVT_TRY(wish, wishOf(arguments.at(2)));
     const Progress progress = progressOfPage();
     Diagnostics findings;
-    auto states = std::make_unique<Comparing>();
-    // The samples of a volume count, else those of the old state.
-    const bool isNewFirst = isVolume(files[1]) && !isVolume(files[0]);
-    SVT_TRY(one, readVolume(files[isNewFirst ? 1 : 0], wish->memoryBytes, nullptr, progress, findings));
-    SVT_TRY(other, readVolume(files[isNewFirst ? 0 : 1], wish->memoryBytes, &one->grid, progress, findings));
-    if (isNewFirst) std::swap(*one, *other);
-    states->was = std::move(*one);
-    states->is = std::move(*other);
-    std::string_view aligned;
-    if (wish->isAligned) {
-        SVT_TRY(ended, alignStates(*states, files[1], *wish, progress, findings));
-        aligned = *ended;
-    }
-    states->options = wish->options;
+    const auto sourceOf = [&](const Files& given) -> compare::StateSource {
+        return {
+            [&](const volume::Grid* grid) { return readVolume(given, wish->memoryBytes, grid, progress, findings); },
+            isVolume(given)};
+    };
     compare::CompareOptions options = wish->options;
     options.progress = &progress;
-    SVT_TRY(comparison, compare::compareVolumes(states->was, states->is, options));
-    states->comparison = std::move(*comparison);
-    comparing = std::move(states);
-    return Reply(reportOf(*comparing, aligned, findings));
+    SVT_TRY(states, compare::compareStates(sourceOf(files[0]), sourceOf(files[1]), wish->isAligned, options));
+    comparing = std::make_unique<compare::ComparedStates>(std::move(*states));
+    return Reply(reportOf(*comparing, findings));
 }
 
-Result<const Comparing*> compared() {
+Result<const compare::ComparedStates*> compared() {
     if (!comparing) return Error(Code::BadArgument, "no states are compared; compare two first");
-    return static_cast<const Comparing*>(comparing.get());
+    return static_cast<const compare::ComparedStates*>(comparing.get());
 }
 
 // () -> the bytes that `svt diff -o F.json` writes

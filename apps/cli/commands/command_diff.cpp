@@ -10,7 +10,7 @@
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
-#include <svt/compare/comparison.hpp>
+#include <svt/compare/compare_states.hpp>
 #include <svt/compare/difference_volume.hpp>
 #include <svt/compare/states_file.hpp>
 #include <svt/core/file.hpp>
@@ -41,58 +41,31 @@ struct DiffArguments {
     bool json = false, csv = false, all = false, verbose = false;
 };
 
-// A state with meshes, a model on the sample positions of `grid` if that is not null.
-Result<volume::SemanticVolume> loadState(const std::filesystem::path& file, const DiffArguments& arguments,
-                                         const volume::Grid* grid, const Progress* progress, bool isVerbose) {
-    pipeline::BuildOptions build = arguments.build;
-    build.vectors.meshes = true;
-    build.extendsGrid = grid != nullptr;
-    return loadVolume(file, build, progress, isVerbose, grid);
+// A state with meshes, from a .svt or a model.
+compare::StateSource sourceOf(const std::filesystem::path& file, const DiffArguments& arguments,
+                              const Progress* progress) {
+    auto read = [&, progress, isAgain = false](const volume::Grid* grid) mutable -> Result<volume::SemanticVolume> {
+        pipeline::BuildOptions build = arguments.build;
+        build.vectors.meshes = true;
+        build.extendsGrid = grid != nullptr;
+        return loadVolume(file, build, progress, arguments.verbose && !std::exchange(isAgain, true), grid);
+    };
+    return {std::move(read), volume::isSvtFile(file)};
 }
 
-struct States {
-    volume::SemanticVolume was, is;
-};
-
-// Both states, on the samples of a .svt if there is one, else on those of the old state.
-Result<States> loadStates(const DiffArguments& arguments, const Progress* progress) {
-    const bool isNewFirst = volume::isSvtFile(arguments.is) && !volume::isSvtFile(arguments.was);
-    const std::filesystem::path& first = isNewFirst ? arguments.is : arguments.was;
-    const std::filesystem::path& second = isNewFirst ? arguments.was : arguments.is;
-    SVT_TRY(one, loadState(first, arguments, nullptr, progress, arguments.verbose));
-    SVT_TRY(other, loadState(second, arguments, &one->grid, progress, arguments.verbose));
-    if (isNewFirst) std::swap(*one, *other);
-    return States{std::move(*one), std::move(*other)};
-}
-
-// Moves the new volume to the old one and returns the vector. The vector is reported, so that nobody takes a shifted
-// model for a changed one, or the reverse. A model is built again, so that its samples coincide with those of the old one
-// after the move.
-Result<Vec3d> align(const DiffArguments& arguments, const volume::SemanticVolume& was, const Progress* progress,
-                    volume::SemanticVolume& is) {
-    if (arguments.align == Align::None) return Vec3d{};
-    const auto offset = compare::estimateTranslation(was, is, arguments.options.tolerance);
-    if (!offset) {
-        note(
-            "no common translation is found: fewer than half of the objects with one shape agree; the models stay in "
-            "their places");
-        return Vec3d{};
+// The vector is reported, so that nobody takes a shifted model for a changed one, or the reverse.
+void printAlignment(const compare::ComparedStates& states) {
+    switch (states.alignment) {
+        case compare::Alignment::NotAsked: return;
+        case compare::Alignment::NotFound:
+            return note(
+                "no common translation is found: fewer than half of the objects with one shape agree; the models stay "
+                "in their places");
+        case compare::Alignment::Aligned: return note("the models are aligned; no translation is applied");
+        case compare::Alignment::Moved:
+            return note(fmt::format("the new model is moved by {:.4f}, {:.4f}, {:.4f} m for the comparison",
+                                    states.shift.x, states.shift.y, states.shift.z));
     }
-    if (length(*offset) <= arguments.options.tolerance) {
-        note("the models are aligned; no translation is applied");
-        return Vec3d{};
-    }
-    const volume::Grid& grid = was.grid;
-    SVT_TRY(shifted, volume::Grid::fromParts(grid.dimension(), grid.spacing(), grid.origin() + *offset, grid.axes()));
-    if (!volume::isSvtFile(arguments.is)) {
-        SVT_TRY(again, loadState(arguments.is, arguments, &*shifted, progress, false));
-        is = std::move(*again);
-    }
-    SVT_TRY(moved, compare::translated(is, -*offset));
-    is = std::move(*moved);
-    note(fmt::format("the new model is moved by {:.4f}, {:.4f}, {:.4f} m for the comparison", -offset->x, -offset->y,
-                     -offset->z));
-    return -*offset;
 }
 
 void printNotes(const Compared& compared) {
@@ -170,8 +143,7 @@ Result<void> writeOutput(const std::filesystem::path& output, const Compared& co
                             "to compare them at one place, use --align translation ({})",
                             output.string(), volume.error().message()));
         if (!volume) return volume.error();
-        SVT_DO(compare::writeDifference(*volume, compared.was, compared.is, compared.comparison,
-                                        compared.options.tolerance, compared.shift, output));
+        SVT_DO(compare::writeDifference(*volume, compared, output));
     } else if (ending == ".csv") {
         SVT_DO(writeFileAtomically(output, writers::makeCsv(comparisonTable(compared, true))));
     } else if (ending == ".html") {
@@ -231,15 +203,14 @@ Result<int> runCityDiff(const DiffArguments& arguments) {
 Result<int> runDiff(const DiffArguments& arguments) {
     if (isCity(arguments.was) || isCity(arguments.is)) return runCityDiff(arguments);
     const TerminalProgress progress;
-    SVT_TRY(states, loadStates(arguments, progress.get()));
-    volume::SemanticVolume &was = states->was, &is = states->is;
-    SVT_TRY(shift, align(arguments, was, progress.get(), is));
     compare::CompareOptions options = arguments.options;
     options.threads = arguments.build.threads;
     options.progress = progress.get();
-    SVT_TRY(comparison, compare::compareVolumes(was, is, options));
-    const Compared compared{
-        was, is, *comparison, shownText(arguments.was.string()), shownText(arguments.is.string()), *shift, options};
+    SVT_TRY(states, compare::compareStates(sourceOf(arguments.was, arguments, progress.get()),
+                                           sourceOf(arguments.is, arguments, progress.get()),
+                                           arguments.align == Align::Translation, options));
+    const Compared compared = states->compared(shownText(arguments.was.string()), shownText(arguments.is.string()));
+    printAlignment(*states);
     printNotes(compared);
     Difference difference(compared, arguments.build.threads);
     for (const std::filesystem::path& output : arguments.outputs) SVT_DO(writeOutput(output, compared, difference));
@@ -250,8 +221,8 @@ Result<int> runDiff(const DiffArguments& arguments) {
         print(comparisonTable(compared, true), TableFormat::Csv);
     else if (const Table table = comparisonTable(compared, arguments.all, 3); !table.rows.empty())
         print(table, TableFormat::Text);
-    if (!arguments.json && !arguments.csv) summarize(comparisonSummary(*comparison));
-    return comparison->isDifferent() ? kDifferent : kDone;
+    if (!arguments.json && !arguments.csv) summarize(comparisonSummary(compared.comparison));
+    return compared.comparison.isDifferent() ? kDifferent : kDone;
 }
 
 Members<DiffArguments> membersOf(const DiffArguments*) noexcept {

@@ -186,7 +186,7 @@ Result<void> markSectionRevisions(const SectionArguments& arguments, const compa
     SVT_TRY(before, drawing::drawSection(states.was, drawing.plane, options));
     drawing::SectionDrawing* const drawings[] = {&drawing};
     const std::vector<drawing::Revision> revisions = compare::markRevisions(
-        {.was = states.was, .is = volume, .comparison = states.comparison, .options = {.tolerance = states.tolerance}},
+        {.was = states.was, .is = volume, .comparison = states.comparison, .options = states.options},
         std::span(&*before, 1), drawings);
     note(fmt::format("the drawing shows the new state with {} of {} revisions", drawing.revisions.size(),
                      revisions.size()));

@@ -199,11 +199,9 @@ void markSheetRevisions(const compare::ComparedStates& states, DrawnSet& drawn) 
     writers::SheetContent& content = drawn.content;
     std::vector<drawing::SectionDrawing*> drawings;
     for (writers::DrawnView& view : content.views) drawings.push_back(&view.drawing);
-    content.revisions = compare::markRevisions({.was = states.was,
-                                                .is = drawn.volume,
-                                                .comparison = states.comparison,
-                                                .options = {.tolerance = states.tolerance}},
-                                               content.before, drawings);
+    content.revisions = compare::markRevisions(
+        {.was = states.was, .is = drawn.volume, .comparison = states.comparison, .options = states.options},
+        content.before, drawings);
     content.before.clear();
     const auto shown = std::count_if(content.revisions.begin(), content.revisions.end(),
                                      [](const drawing::Revision& revision) { return revision.number != 0; });

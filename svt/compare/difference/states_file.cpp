@@ -114,8 +114,9 @@ Result<void> readRows(std::string_view text, ComparedStates& states) {
         comparison.otherProperties += isTrue(from, "properties") ? 1 : 0;
         comparison.rows.push_back(std::move(*row));
     }
-    states.tolerance = numberOf(document, "tolerance").value_or(states.tolerance);
-    if (!(states.tolerance > 0 && states.tolerance <= 1e6)) return badStates("its tolerance is out of range");
+    states.options.tolerance = numberOf(document, "tolerance").value_or(states.options.tolerance);
+    if (!(states.options.tolerance > 0 && states.options.tolerance <= 1e6))
+        return badStates("its tolerance is out of range");
     comparison.isOnOneLattice = true;
     return {};
 }
@@ -129,21 +130,20 @@ Result<volume::SemanticVolume> readState(const volume::ZipRanges& file, const ch
 
 }  // namespace
 
-Result<std::uint64_t> writeDifference(const volume::SemanticVolume& difference, const volume::SemanticVolume& was,
-                                      const volume::SemanticVolume& is, const Comparison& comparison, double tolerance,
-                                      Vec3d shift, const std::filesystem::path& path) {
+Result<std::uint64_t> writeDifference(const volume::SemanticVolume& difference, const Compared& compared,
+                                      const std::filesystem::path& path) {
     RowsJson document;
-    document["tolerance"] = tolerance;
+    document["tolerance"] = compared.options.tolerance;
     document["rows"] = RowsJson::array();
-    for (const ComparisonRow& row : comparison.rows) document["rows"].push_back(rowToJson(row));
+    for (const ComparisonRow& row : compared.comparison.rows) document["rows"].push_back(rowToJson(row));
     const std::string rows = document.dump();
     const auto bytesOf = [&](const volume::SemanticVolume& state) -> Result<std::vector<std::byte>> {
-        if (shift == Vec3d{}) return volume::svtBytes(state);
-        SVT_TRY(moved, translated(state, -shift));
+        if (compared.shift == Vec3d{}) return volume::svtBytes(state);
+        SVT_TRY(moved, translated(state, -compared.shift));
         return volume::svtBytes(*moved);
     };
-    SVT_TRY(before, bytesOf(was));
-    SVT_TRY(after, bytesOf(is));
+    SVT_TRY(before, bytesOf(compared.was));
+    SVT_TRY(after, bytesOf(compared.is));
     SVT_TRY(file, volume::svtBytes(difference));
     const auto* const text = reinterpret_cast<const std::byte*>(rows.data());
     const std::vector<volume::NewEntry> entries{

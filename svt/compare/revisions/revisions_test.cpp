@@ -168,12 +168,18 @@ TEST(StatesFile, KeepsStatesAndRows) {
     ASSERT_TRUE(difference);
     const test::TemporaryFolder folder;
     const Vec3d shift{0, 0, -5};  // the new model was 5 m higher
-    ASSERT_TRUE(writeDifference(*difference, plan.was, plan.is, plan.comparison, 0.005, shift, folder / "d.svt"));
+    ASSERT_TRUE(writeDifference(*difference,
+                                {.was = plan.was,
+                                 .is = plan.is,
+                                 .comparison = plan.comparison,
+                                 .shift = shift,
+                                 .options = {.tolerance = 0.005}},
+                                folder / "d.svt"));
     const auto read = readStates(folder / "d.svt");
     ASSERT_TRUE(read) << read.error().toString();
     ASSERT_TRUE(read->has_value());
     const ComparedStates& states = **read;
-    EXPECT_EQ(states.tolerance, 0.005);
+    EXPECT_EQ(states.options.tolerance, 0.005);
     EXPECT_EQ(states.is.labels.labels.size(), plan.is.labels.labels.size());
     EXPECT_NEAR(states.is.grid.origin().z, plan.is.grid.origin().z + 5, 1e-9);
     EXPECT_NEAR(states.was.grid.origin().z, plan.was.grid.origin().z + 5, 1e-9);
