@@ -65,7 +65,7 @@ def rows_of_page():
     viewer = ROOT / "web" / "viewer"
     if not (viewer / "node_modules").is_dir() or not shutil.which("node"):
         return [], ["the page: web/viewer has no packages; `make viewer` makes it"]
-    done = subprocess.run(["node", "e2e/bench.mjs", "--json"], cwd=viewer, capture_output=True, text=True)
+    done = subprocess.run(["node", "bench/page.mjs", "--json"], cwd=viewer, capture_output=True, text=True)
     if done.returncode != 0:
-        return [], [f"the page: e2e/bench.mjs ended with exit code {done.returncode}: {done.stderr.strip()[-400:]}"]
+        return [], [f"the page: bench/page.mjs ended with exit code {done.returncode}: {done.stderr.strip()[-400:]}"]
     return [{"id": "page/fzk-haus", "stage": "page", "input": "FZK-Haus", **json.loads(done.stdout)}], []

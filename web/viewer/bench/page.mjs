@@ -5,7 +5,7 @@
 import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { browse, dataDir, svt, svtServe } from "./harness.mjs";
+import { browse, dataDir, svt, svtServe } from "../e2e/harness.mjs";
 
 const kRounds = Number(process.env.SVT_BENCH_ROUNDS ?? 5);
 const folder = mkdtempSync(join(tmpdir(), "svt-viewer-bench-"));

@@ -1,8 +1,8 @@
-// Times of a city on the page over a slow line: node e2e/bench_city.mjs CITY...  Needs `make viewer`.
+// Times of a city on the page over a slow line: node bench/city.mjs CITY...  Needs `make viewer`.
 // Prints a table in Markdown: first picture, complete view, requests, bytes, memory; then frames of a flight over the city.
 // Environment: SVT_LATENCY (ms, 50), SVT_MBITS (20).
 import { basename } from "node:path";
-import { browse, svtServe } from "./harness.mjs";
+import { browse, svtServe } from "../e2e/harness.mjs";
 
 const latency = Number(process.env.SVT_LATENCY ?? 50),
   megabits = Number(process.env.SVT_MBITS ?? 20);
