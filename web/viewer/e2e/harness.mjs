@@ -91,10 +91,14 @@ export async function browse(options = {}) {
   return { context, close: async () => (await context.close(), rmSync(profile, { recursive: true, force: true })) };
 }
 
+// Without a second compilation of modules, and with pages composed by the CPU instead of a simulated graphics card, which WebGL
+// still has, a visit takes less than half of the processor time.
+const kQuick = ["--js-flags=--liftoff-only", "--disable-gpu-compositing"];
+
 let started = null;
 /** A context of the one browser of this process, in which nothing is kept: to start a browser takes seconds. */
 export async function newContext(options = {}) {
-  started ??= chromium.launch({ ...kBrowser, timeout: 0 });
+  started ??= chromium.launch({ ...kBrowser, args: [...kBrowser.args, ...kQuick], timeout: 0 });
   return (await started).newContext({ ...kPage, ...options });
 }
 export const endBrowser = async () => {
