@@ -92,7 +92,7 @@ export async function browse(options = {}) {
 }
 
 // Without a second compilation of modules, and with pages composed by the CPU instead of a simulated graphics card, which WebGL
-// still has, a visit takes less than half of the processor time (17 instead of 40 s for six). Drawing takes twice as long.
+// still has, a visit takes less than half of the processor time (17 instead of 40 s for six). Drawing takes longer.
 const kQuick = ["--js-flags=--liftoff-only", "--disable-gpu-compositing"];
 
 let started = null;
