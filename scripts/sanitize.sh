@@ -8,7 +8,8 @@ preset=${1:?usage: $0 asan|tsan [FOLDER...]}
 shift
 folders=("$@")
 # The programs whose tests start threads.
-[ "$preset" = tsan ] && folders=(core readers volume voxelize render analyze drawing illustrate serve pipeline city)
+[ "$preset" = tsan ] && \
+  folders=(core readers mesh volume voxelize render fields simulate analyze quantities compare drawing illustrate serve pipeline city)
 targets=()
 for folder in "${folders[@]}"; do
   targets+=("svt_${folder}_test")
@@ -20,8 +21,8 @@ export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:alloc
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1
 select=()
-# What starts threads: loops, readers, bricks and columns, the voxelizer, both casters, shells, contacts, the server.
-[ "$preset" = tsan ] && select=(-R '(Thread|Parallel|Deterministic|SameBytes|AnyNumber|Server|Hostile|Contacts|Shell|LodPyramid|BrickVolume|ColumnBlocks|Voxelize|PacketCaster|RayCaster)' -E '^(Picture|Viewer|WebModule|Documents|Package)')
+# What starts threads: loops, readers, bricks and columns, the voxelizer, both casters, quantities, shells, contacts, the server.
+[ "$preset" = tsan ] && select=(-R '(Thread|Parallel|Deterministic|SameBytes|AnyNumber|Server|Hostile|Contacts|Shell|LodPyramid|BrickVolume|ColumnBlocks|Voxelize|PacketCaster|RayCaster|Quantities|TouchingFaces)' -E '^(Picture|Viewer|WebModule|Documents|Package)')
 # Pages and pictures are tested by the release build; drivers of OpenGL are no code of ours.
 [ "$preset" = asan ] && select=(-E '^(Viewer|WebModule|Gl|Package)')
 if [ ${#folders[@]} -gt 0 ]; then

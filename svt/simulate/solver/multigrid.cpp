@@ -136,7 +136,9 @@ void Multigrid::sweep(Level& level, unsigned colour) const {
                 const std::uint32_t last = run.first + run.count;
                 for (std::uint32_t u = run.first + ((parity + static_cast<unsigned>(run.k)) & 1u); u < last; u += 2) {
                     const std::uint32_t beforeX = previousX[u], beforeY = previousY[u];
-                    const float sum = b[u] + gz[u] * x[u + 1] + gz[u - 1] * x[u - 1] + gx[u] * x[nextX[u]] +
+                    // Beyond the ends of a run are cells of other columns, which another thread may write.
+                    const float above = u + 1 < last ? x[u + 1] : 0.0f, below = u > run.first ? x[u - 1] : 0.0f;
+                    const float sum = b[u] + gz[u] * above + gz[u - 1] * below + gx[u] * x[nextX[u]] +
                                       gx[beforeX] * x[beforeX] + gy[u] * x[nextY[u]] + gy[beforeY] * x[beforeY];
                     x[u] = sum * inverse[u];
                 }
