@@ -19,6 +19,7 @@
 #include <svt/drawing/field_drawing.hpp>
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/fields/field.hpp>
+#include <svt/image/color_map.hpp>
 #include <svt/volume/svt_file.hpp>
 #include <svt/writers/drawing_formats.hpp>
 #include <svt/writers/section_table.hpp>

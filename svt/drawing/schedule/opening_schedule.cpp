@@ -1,5 +1,6 @@
 #include <svt/drawing/opening_schedule.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/drawing/levels/level_parts.hpp>
 #include <svt/model/classes.hpp>
 
