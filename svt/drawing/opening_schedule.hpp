@@ -31,7 +31,7 @@ struct OpeningRow {
     std::size_t level = 0;                                ///< index into the given levels
     std::optional<double> statedWidth, statedHeight;      ///< metres, as the file states them: OverallWidth of IFC
     std::optional<double> measuredWidth, measuredHeight;  ///< metres, of the mesh with its frame
-    /// Metres, of doors: a property such as `ClearWidth`, in metres; otherwise, of doors that swing, the stated width without
+    /// Metres, of doors: a property such as `ClearWidth`, in metres; otherwise, if all panels swing, the stated width without
     /// the linings at both sides (LiningThickness of IFC). The thickness of an open panel is not deducted.
     std::optional<double> clearWidth;
     /// Metres from the floor of the rooms to the lowest point, the least of the row. Thresholds of doors below 5 cm are 0.

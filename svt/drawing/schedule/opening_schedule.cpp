@@ -198,13 +198,13 @@ std::optional<double> clearWidthOf(const volume::Label& label, const std::option
         if (attribute.unit != "m") continue;
         std::string name = lowerAscii(attribute.name.substr(attribute.name.rfind('.') + 1));
         std::erase_if(name, [](char c) { return c == ' ' || c == '_' || c == '-'; });
-        const auto* width = std::get_if<double>(&attribute.value);
-        if (width != nullptr && *width > 0 && std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames))
-            return *width;
+        if (std::find(std::begin(kNames), std::end(kNames), name) == std::end(kNames)) continue;
+        if (const auto width = numberOf(label, attribute.name); width > 0.0) return width;
     }
     const auto lining = numberOf(label, "liningThickness");
-    const bool swings = openingText(label, "operationType").find("SWING") != std::string::npos;
-    if (!swings || !statedWidth || !lining || !(*statedWidth > 2 * *lining)) return std::nullopt;
+    const std::string operation = openingText(label, "operationType");  // SWING_FIXED_LEFT: one of two panels swings
+    const auto has = [&](std::string_view word) { return operation.find(word) != std::string::npos; };
+    if (!has("SWING") || has("FIXED") || !statedWidth || !lining || !(*statedWidth > 2 * *lining)) return std::nullopt;
     return roundedSize(*statedWidth - 2 * *lining);
 }
 

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -33,33 +32,33 @@ SheetTable tableOfOpenings(const drawing::OpeningSchedule& openings, const std::
                       {std::string(sheetWord(SheetWord::Storey, language))},
                       {word(SheetWord::Width), true},
                       {word(SheetWord::WidthMeasured), true},
+                      {word(SheetWord::WidthClear), true},
                       {word(SheetWord::Height), true},
                       {word(SheetWord::HeightMeasured), true},
                       {word(SheetWord::Sill), true},
                       {std::string(sheetWord(SheetWord::Count, language)), true}},
                      {},
                      1};
-    const bool hasClear = std::any_of(openings.rows.begin(), openings.rows.end(), [&](const drawing::OpeningRow& row) {
-        return row.isDoor == ofDoors && row.clearWidth;
-    });
-    constexpr std::ptrdiff_t kClear = 5;  // behind the measured width
-    if (hasClear) table.columns.insert(table.columns.begin() + kClear, {word(SheetWord::WidthClear), true});
     std::size_t count = 0;
+    bool hasClear = false;
     const auto size = [&](const std::optional<double>& metres) {
         return metres ? numberText(*metres, 3, language) : std::string("\u2013");
     };
     for (const drawing::OpeningRow& row : openings.rows) {
         if (row.isDoor != ofDoors) continue;
         table.rows.push_back({row.mark, row.type, levelText(levels, row.level, language), size(row.statedWidth),
-                              size(row.measuredWidth), size(row.statedHeight), size(row.measuredHeight), size(row.sill),
-                              fmt::format("{}", row.labels.size())});
-        if (hasClear) table.rows.back().insert(table.rows.back().begin() + kClear, size(row.clearWidth));
+                              size(row.measuredWidth), size(row.clearWidth), size(row.statedHeight),
+                              size(row.measuredHeight), size(row.sill), fmt::format("{}", row.labels.size())});
+        hasClear = hasClear || row.clearWidth;
         count += row.labels.size();
     }
     if (count == 0) return {};
     table.rows.push_back(
-        {"", std::string(sheetWord(SheetWord::Total, language)), "", "", "", "", "", "", fmt::format("{}", count)});
-    if (hasClear) table.rows.back().insert(table.rows.back().begin() + kClear, "");
+        {"", std::string(sheetWord(SheetWord::Total, language)), "", "", "", "", "", "", "", fmt::format("{}", count)});
+    if (hasClear) return table;
+    constexpr std::ptrdiff_t kClear = 5;
+    table.columns.erase(table.columns.begin() + kClear);
+    for (auto& row : table.rows) row.erase(row.begin() + kClear);
     return table;
 }
 

@@ -459,6 +459,7 @@ TEST(OpeningMarks, OfThePlanAreThoseOfTheSchedule) {
     addDoor("door2", 4.4, 0.885).push_back({"operationType", "SINGLE_SWING_RIGHT", ""});
     addDoor("door3", 7.6, 1.01).push_back({"Doors.Clear Width", 0.8, "m"});
     addDoor("door4", 10.6, 1.01).push_back({"operationType", "SLIDING_TO_LEFT", ""});
+    addDoor("door5", 10.6, 1.01).push_back({"operationType", "SWING_FIXED_LEFT", ""});
     house.add("window", "Window", {2, 1.7, 0.9}, {3.2, 1.9, 2.1});
     drawing::SheetSet set;
     set.tables = false;
@@ -468,7 +469,7 @@ TEST(OpeningMarks, OfThePlanAreThoseOfTheSchedule) {
     const std::string csv = makeCsv(table);
     EXPECT_NE(csv.find("D1,door,,EG,0.885,2.01,0.885,2.01,0.785,0,2,door1 door2"), std::string::npos) << csv;
     EXPECT_NE(csv.find("D3,door,,EG,0.885,2.01,1.01,2.01,0.8,0,1,door3"), std::string::npos) << csv;
-    EXPECT_NE(csv.find("D2,door,,EG,0.885,2.01,1.01,2.01,,0,1,door4"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("D2,door,,EG,0.885,2.01,1.01,2.01,,0,2,door4 door5"), std::string::npos) << csv;
     EXPECT_NE(csv.find("W1,window,,EG,,,1.2,1.2,,0.9,1,window"), std::string::npos) << csv;
     SheetOptions options{.scale = 50, .paper = "A2"};
     const auto sheets = *makeSvgSheets(content, house.volume, options);
