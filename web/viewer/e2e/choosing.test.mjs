@@ -380,9 +380,11 @@ describe("on a phone", () => {
     await tool("section");
     await settled();
     await visit.page.locator("#cube-rectangle").tap();
-    const layer = await visit.page.locator("svt-aim").boundingBox();
-    const picture = await stage();
-    for (const side of ["x", "y", "width", "height"]) assert.ok(Math.abs(layer[side] - picture[side]) < 1, `${side} of the layer`);
+    // The layer has no size until its script has come.
+    await eventually(async () => {
+      const [layer, picture] = [await visit.page.locator("svt-aim").boundingBox(), await stage()];
+      for (const side of ["x", "y", "width", "height"]) assert.ok(Math.abs(layer[side] - picture[side]) < 1, `${side} of the layer`);
+    });
     assert.deepEqual(await findings(), []);
     const finger = async (kind, x, y) =>
       visit.page.evaluate(

@@ -234,8 +234,9 @@ describe("A published page", () => {
     site = await serveFolder(at(name));
     await visit.begin();
     await visit.page.goto(site.url, { waitUntil: "commit" });
-    const early = await visit.page.locator("body > #preview").boundingBox();
-    assert.deepEqual(early, { x: 0, y: 49, width: 1200, height: 591 });
+    const early = { x: 0, y: 49, width: 1200, height: 591 };
+    // The browser shows nothing before the style sheet, but measures it.
+    await visit.eventually(async () => assert.deepEqual(await visit.page.locator("body > #preview").boundingBox(), early));
     openGates();
     closeGates(kLarge);
     const image = visit.page.locator("svt-app #preview");
