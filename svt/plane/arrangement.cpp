@@ -106,15 +106,25 @@ class SegmentArranger {
 public:
     SegmentArranger(std::span<const ClaimSegment> segments, std::int32_t tolerance)
         : reach_(tolerance / 2), nodes_(tolerance) {
+        // A node keeps the place of its first point, so the order counts.
+        for (const ClaimSegment& s : segments)
+            for (const Point p : {s.to, s.from}) static_cast<void>(nodes_.nodeAt(p));
+        // Only now is the nearest node of a point the same for all its segments, so that rings stay closed.
         pairs_.reserve(segments.size());
-        for (const ClaimSegment& s : segments) addSegment(s);
+        for (const ClaimSegment& s : segments) {
+            const std::uint32_t from = nodes_.nodeAt(s.from), to = nodes_.nodeAt(s.to);
+            addPair(from, to, {from, to, s.claim, s.winding, s.winding == 0, true}, true);
+        }
         merge();
     }
 
     bool run() {
-        constexpr int kMostSteps = 40;
-        for (int step = 0; step < kMostSteps; ++step)
+        constexpr std::size_t kUsualRounds = 40, kMostPairs = 20'000'000;
+        std::size_t pairs = 0;  // of all rounds
+        for (std::size_t round = 0; round < kUsualRounds || pairs < kMostPairs; ++round) {
             if (!split()) return true;
+            pairs += pairs_.size();
+        }
         return false;
     }
 
@@ -147,12 +157,6 @@ private:
     };
 
     [[nodiscard]] Point pointOf(std::uint32_t node) const noexcept { return nodes_.points()[node]; }
-
-    void addSegment(const ClaimSegment& s) {
-        // A node keeps the place of its first point, so the order counts.
-        const std::uint32_t to = nodes_.nodeAt(s.to), from = nodes_.nodeAt(s.from);
-        addPair(from, to, {from, to, s.claim, s.winding, s.winding == 0, true}, true);
-    }
 
     // Adds a part of `whole`.
     void addPair(std::uint32_t from, std::uint32_t to, const NodePair& whole, bool isNew) {

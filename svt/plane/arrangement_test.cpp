@@ -4,6 +4,7 @@
 
 #include <polyclipping/clipper.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <tuple>
@@ -100,6 +101,17 @@ TEST(Arrangement, RandomPolygonsHaveTheAreasOfClipper) {
     }
 }
 
+// The number of points of claims where other windings leave than arrive.
+int openEnds(const Arrangement& arranged) {
+    std::map<std::tuple<std::uint32_t, Point>, int> ends;
+    for (const ArrangementEdge& edge : arranged.edges)
+        for (std::uint32_t m = edge.firstMark; m < edge.endMark; ++m) {
+            ends[{arranged.marks[m].claim, edge.from}] += arranged.marks[m].winding;
+            ends[{arranged.marks[m].claim, edge.to}] -= arranged.marks[m].winding;
+        }
+    return static_cast<int>(std::ranges::count_if(ends, [](const auto& end) { return end.second != 0; }));
+}
+
 TEST(Arrangement, ClosedRingsStayClosedWhateverMeets) {
     std::mt19937 random(5);
     // Many short edges in few places: everything is within the tolerance of something.
@@ -112,13 +124,68 @@ TEST(Arrangement, ClosedRingsStayClosedWhateverMeets) {
     }
     const auto arranged = arrangeSegments(segments, 6);
     ASSERT_TRUE(arranged);
-    std::map<std::tuple<std::uint32_t, Point>, int> ends;  // of each claim: leaving minus arriving windings
-    for (const ArrangementEdge& edge : arranged->edges)
-        for (std::uint32_t m = edge.firstMark; m < edge.endMark; ++m) {
-            ends[{arranged->marks[m].claim, edge.from}] += arranged->marks[m].winding;
-            ends[{arranged->marks[m].claim, edge.to}] -= arranged->marks[m].winding;
+    EXPECT_EQ(openEnds(*arranged), 0);
+}
+
+// Rings of one claim whose corners are a few points, and points within the tolerance of them.
+std::vector<ClaimSegment> ringsOfNearPoints(std::mt19937& random, std::int64_t tolerance) {
+    const auto below = [&](std::int64_t count) { return static_cast<std::int64_t>(random() % std::uint32_t(count)); };
+    std::vector<Point> points;
+    const std::int64_t extent = 50 + below(4000);
+    for (std::int64_t n = 3 + below(40); n > 0; --n) {
+        const std::int64_t u = below(extent);
+        points.push_back({u, below(extent)});
+    }
+    for (std::int64_t n = below(60); n > 0; --n) {
+        const Point p = points[static_cast<std::size_t>(below(static_cast<std::int64_t>(points.size())))];
+        const std::int64_t u = p.u + below(2 * tolerance + 1) - tolerance;
+        points.push_back({u, p.v + below(2 * tolerance + 1) - tolerance});
+    }
+    std::vector<ClaimSegment> segments;
+    for (std::int64_t rings = 1 + below(20); rings > 0; --rings) {
+        TestRing ring;
+        for (std::int64_t n = 3 + below(5); n > 0; --n)
+            ring.push_back(points[static_cast<std::size_t>(below(static_cast<std::int64_t>(points.size())))]);
+        addRing(ring, 0, segments);
+    }
+    return segments;
+}
+
+TEST(Arrangement, APointHasOneNodeInAllItsSegments) {
+    for (std::uint32_t seed = 0; seed < 300; ++seed) {
+        std::mt19937 random(seed);
+        const auto tolerance = static_cast<std::int32_t>(2 + random() % 12);
+        const auto segments = ringsOfNearPoints(random, tolerance);
+        const auto arranged = arrangeSegments(segments, tolerance);
+        ASSERT_TRUE(arranged) << seed;
+        EXPECT_EQ(openEnds(*arranged), 0) << seed;
+        double before = 0, after = 0, length = 0;
+        for (const ClaimSegment& s : segments) {
+            before += static_cast<double>(cross(s.from, s.to)) / 2;
+            length += std::hypot(double(s.to.u - s.from.u), double(s.to.v - s.from.v));
         }
-    for (const auto& [key, sum] : ends) EXPECT_EQ(sum, 0);
+        for (const ArrangementEdge& edge : arranged->edges)
+            after += arranged->marks[edge.firstMark].winding * static_cast<double>(cross(edge.from, edge.to)) / 2;
+        EXPECT_LE(std::abs(after - before), 2 * tolerance * length) << seed;
+        for (std::size_t i = 0; i < arranged->edges.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                const ArrangementEdge &a = arranged->edges[i], &b = arranged->edges[j];
+                EXPECT_NE(meet(a.from, a.to, b.from, b.to), Meeting::Cross) << seed;
+            }
+    }
+}
+
+// Each crossing moves long edges by less than the tolerance, so that they cross again next to it: over 40 rounds.
+TEST(Arrangement, SettlesWhereLongEdgesCrossAtSmallAngles) {
+    const auto settles = [](const std::vector<ClaimSegment>& segments, std::int32_t tolerance) {
+        const auto arranged = arrangeSegments(segments, tolerance);
+        return arranged && !arranged->edges.empty();
+    };
+    EXPECT_TRUE(settles(
+        {{{2606, 1922}, {929, 1095}, 0, 1}, {{2607, 1923}, {1320, 1395}, 0, 1}, {{2609, 1923}, {1320, 1395}, 0, 1}},
+        2));
+    EXPECT_TRUE(settles(
+        {{{1346, 1812}, {866, 1617}, 0, 1}, {{866, 1617}, {1463, 1839}, 0, 1}, {{1462, 1840}, {863, 1616}, 0, 1}}, 3));
 }
 
 }  // namespace

@@ -49,24 +49,24 @@ private:
     std::unordered_map<std::uint64_t, std::uint32_t> last_;  // cell -> its last number
 };
 
-/// Numbers points. A point near an earlier point gets the same number. The caller decides which points are near.
+/// Numbers points. A point near earlier points gets the number of the first of them, so it has the same number each time.
+/// The caller decides which points are near.
 /// \tparam P  a point of a plane or of space
 template <class P>
 class Welder {
 public:
-    /// The number of `p`: that of an earlier point, or else a new one.
+    /// The number of `p`: that of the first point near it, or else a new one.
     /// \param home       the cell of p
     /// \param low, high  the cells in which a point near p can lie, both included
-    /// \param takes      takes(number, best): whether an earlier point is near p and replaces `best`, the choice so far
-    ///                   or kNone. Calls are in the order of CellIndex::forEach().
+    /// \param isNear     isNear(number): whether an earlier point is near p
     /// Cost: O(1) for a few cells, unless many points crowd in them.
-    template <class Takes>
-    std::uint32_t add(const P& p, const Cell& home, const Cell& low, const Cell& high, const Takes& takes) {
-        std::uint32_t best = kNone;
+    template <class IsNear>
+    std::uint32_t add(const P& p, const Cell& home, const Cell& low, const Cell& high, const IsNear& isNear) {
+        std::uint32_t first = kNone;
         cells_.forEach(low, high, [&](std::uint32_t n) {
-            if (takes(n, best)) best = n;
+            if (n < first && isNear(n)) first = n;
         });
-        if (best != kNone) return best;
+        if (first != kNone) return first;
         points_.push_back(p);
         cells_.add(home);
         return static_cast<std::uint32_t>(points_.size() - 1);

@@ -19,7 +19,7 @@ namespace {
 constexpr double kKeptHair = 1e-4;       // of a voxel: samples lie this far in the kept side
 constexpr double kLeastBand = 1e-6;      // m2
 constexpr double kUsualBands = 8;        // the least number, unless a step is given
-constexpr double kAreaTolerance = 1e-3;  // of the area of a band: lost where pieces did not join
+constexpr double kAreaTolerance = 1e-3;  // of the area of a band: slivers that joining drops
 
 // The round step of bands; 0: none.
 Result<double> bandStepOf(const fields::FieldHead& head, const FieldDrawingOptions& options, double range) {
@@ -45,8 +45,8 @@ Result<std::vector<SectionPolygon>> joined(const BandOutline& band, const char* 
     return polygons;
 }
 
-// Joins the bands of all regions. Limits at the values of nodes make slivers that do not join; then they are shifted a
-// little.
+// Joins the bands of all regions. Limits at the values of nodes make slivers, which joining drops; then the limits are
+// shifted a little.
 Result<std::vector<FieldBand>> joinedBands(const std::deque<RegionGrid>& grids, double step) {
     std::optional<Error> failed;
     for (const double shift : {0.0, 3e-5, -7e-5, 1.3e-4}) {

@@ -8,8 +8,8 @@
 
 namespace svt::readers::ifc {
 
-/// Numbers points. A point within `distance` (along each axis) of an earlier one gets its number; the first point
-/// determines the position.
+/// Numbers points. A point within `distance` (along each axis) of earlier ones gets the number and the position of the
+/// first of them.
 class Welder {
 public:
     explicit Welder(double distance) : distance_(distance) {}
@@ -17,10 +17,9 @@ public:
     /// Cost: O(1) unless many points are in one cell.
     std::uint32_t add(Vec3d p) {
         const plane::Cell cell{cellOf(p.x), cellOf(p.y), cellOf(p.z)}, next{1, 1, 1};
-        return points_.add(p, cell, cell - next, cell + next, [&](std::uint32_t n, std::uint32_t best) {
+        return points_.add(p, cell, cell - next, cell + next, [&](std::uint32_t n) {
             const Vec3d apart = points()[n] - p;
-            return best == plane::kNone && std::abs(apart.x) <= distance_ && std::abs(apart.y) <= distance_ &&
-                   std::abs(apart.z) <= distance_;
+            return std::abs(apart.x) <= distance_ && std::abs(apart.y) <= distance_ && std::abs(apart.z) <= distance_;
         });
     }
 
