@@ -52,10 +52,10 @@ struct Arrangement {
 /// Cuts `segments` where they meet. Where borders of one claim cancel, no edge remains.
 /// \param segments   coordinates at most 2^29 from 0
 /// \param tolerance  in units of the grid, >= 2: no point moves further in one round
-/// \return the arrangement, or nothing if 40 rounds and 20 million pieces of segments, all rounds together, do not suffice
-///         (not observed)
-/// Cost: O(n log n) for segments that are spread over the plane, in a few rounds. Long segments that cross at a very small
-///       angle take more: a crossing moves them by up to the tolerance, so that they cross again further on.
+/// \return the arrangement, or nothing if 40 rounds and 20 million pieces of segments, all rounds together, do not
+///         suffice (not observed)
+/// Cost: O(n log n) for segments that are spread over the plane, in a few rounds. Long segments that cross at a very
+///       small angle take more: a crossing moves them by up to the tolerance, so that they cross again further on.
 [[nodiscard]] std::optional<Arrangement> arrangeSegments(std::span<const ClaimSegment> segments,
                                                          std::int32_t tolerance);
 
