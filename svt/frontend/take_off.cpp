@@ -264,6 +264,7 @@ struct TakeOffTotals::All {
     Sums total;
     std::map<std::vector<std::string>, Sums> groups;  // by the values of the keys
     std::size_t inVoxels = 0;                         // objects whose volume is counted
+    std::size_t assumed = 0;                          // of them, those whose material is assumed
 };
 
 TakeOffTotals::TakeOffTotals() : all_(std::make_unique<All>()) {}
@@ -279,6 +280,7 @@ void TakeOffTotals::add(const TakeOff& takeOff) {
         if (!takeOff.keys.empty()) all_->groups[takeOff.values[n]].add(takeOff, n);
     }
     for (const quantities::CountedVolume& one : takeOff.counted) all_->inVoxels += one.volume && !one.isExact;
+    for (const ObjectQuantities& object : takeOff.objects) all_->assumed += object.trust == quantities::Trust::Assumed;
 }
 
 std::size_t TakeOffTotals::objects() const noexcept { return all_->total.objects; }
@@ -346,6 +348,11 @@ std::vector<std::string> TakeOffTotals::notes(bool hasGross) const {
                         unknown));
     if (all_->inVoxels > 0)
         notes.push_back(fmt::format("the volumes of {} objects in sums are counted in voxels", all_->inVoxels));
+    if (all_->assumed > 0)
+        notes.push_back(
+            fmt::format("the volumes of {} boundary surfaces are assumed: the space of a building that belongs to no "
+                        "room, such as an attic, counts as the material behind the nearest surface",
+                        all_->assumed));
     return notes;
 }
 

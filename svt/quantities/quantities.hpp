@@ -29,14 +29,16 @@ enum class Trust : std::uint8_t {
     Exact,    ///< a closed mesh
     Tight,    ///< a mesh that closes up to T-junctions, or with faces shared by XLink
     Caps,     ///< a mesh that planar caps close
-    Voxels    ///< counted
+    Voxels,   ///< counted
+    Assumed   ///< counted space of a building that belongs to no room: the material behind its boundary surfaces
 };
 constexpr auto namesOf(Trust) {
     return std::to_array<Name<Trust>>({{Trust::Unknown, ""},
                                        {Trust::Exact, "exact"},
                                        {Trust::Tight, "tight"},
                                        {Trust::Caps, "caps"},
-                                       {Trust::Voxels, "voxels"}});
+                                       {Trust::Voxels, "voxels"},
+                                       {Trust::Assumed, "assumed"}});
 }
 
 /// A face whose unit normal has more than this along z, up or down, is a top or a bottom: 45 degrees.

@@ -70,6 +70,17 @@ TEST_F(Check, AValidSolidIsDoneWithItsVolume) {
     EXPECT_NEAR(report["objects"][0]["volume"].get<double>(), 729 - 27, 1e-6);
 }
 
+TEST_F(Check, DegreesThatCannotBeNeedAUnit) {
+    json model = cityJson("Solid", json::array({boxShell(0)}), {corners(0, 0, 0, 9)});
+    model["metadata"]["referenceSystem"] = "https://www.opengis.net/def/crs/EPSG/0/4326";
+    const CommandResult refused = check(model);
+    EXPECT_EQ(refused.exitCode, 3) << refused.toString();
+    EXPECT_NE(refused.err.find("E127 UnitInDoubt"), std::string::npos) << refused.err;
+    const CommandResult result = check(model, {"--unit", "dm", "--json"});
+    EXPECT_EQ(result.exitCode, 0) << result.toString();
+    EXPECT_NEAR(result.json()["objects"][0]["volume"].get<double>(), 0.729, 1e-9);
+}
+
 TEST_F(Check, AFindingNamesCodePlaceAndTermAndTheVolumeIsNone) {
     const CommandResult result = check(voidSticksOut(), {"--json"});
     EXPECT_EQ(result.exitCode, 4) << result.toString();

@@ -301,7 +301,9 @@ Members<CheckArguments> membersOf(const CheckArguments*) noexcept {
     static constexpr Member<All> kMembers[] = {
         member<&All::inputs>("input", "model files, or a city: its folder or address",
                              {.value = "FILE", .isRequired = true, .file = FileUse::Model}),
-        part<&All::build>("build", "--lod|--crs|--keep-far-features|--extrude-footprints|--allow-truncated"),
+        part<&All::build>(
+            "build",
+            "--lod|--crs|--axis-order|--unit|--date|--keep-far-features|--extrude-footprints|--allow-truncated"),
         member<&All::validation, &ValidateOptions::planarity>(
             "--planarity", "maximum distance of a point from the plane of its polygon",
             {.unit = "m", .least = 1e-6, .most = 1000, .group = "Tolerances", .isForProjects = true}),

@@ -48,8 +48,8 @@ Trust trustOf(Filling filling) noexcept {
         case Filling::TJunctions:
         case Filling::Complemented: return Trust::Tight;
         case Filling::Capped: return Trust::Caps;
-        case Filling::Winding:
-        case Filling::Body: return Trust::Voxels;
+        case Filling::Winding: return Trust::Voxels;
+        case Filling::Body: return Trust::Assumed;
         case Filling::None:
         case Filling::Surface: break;
     }
@@ -128,15 +128,14 @@ private:
             volume = *solid;
             if (trust != Trust::Caps)
                 bound = (triangles.empty() ? label.area : sumsOf(triangles).all()) * volume::VectorParts::kFinestUnit;
-        } else if (trust == Trust::Voxels) {
+        } else if (trust == Trust::Voxels || trust == Trust::Assumed) {
             const std::uint64_t inside =
                 label.voxels - (label.filling == Filling::Winding ? std::min(label.voxels, label.thinVoxels) : 0);
             if (inside + lost_[part] == 0) return;
             const double voxel = volume_.grid.voxelVolume();
             volume = double(inside + lost_[part]) * voxel;
-            const double sides = label.filling == Filling::Body ? 2 : 1;
-            if (label.area > 0)
-                bound = sides * label.area * halfVoxel_ + double(label.uncertainVoxels + lost_[part]) * voxel;
+            if (trust == Trust::Voxels && label.area > 0)
+                bound = label.area * halfVoxel_ + double(label.uncertainVoxels + lost_[part]) * voxel;
         } else {
             return;  // a closed mesh whose volume the file does not keep
         }

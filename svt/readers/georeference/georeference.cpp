@@ -21,6 +21,7 @@ namespace {
 using std::string_view;
 
 constexpr double kMetresPerDegree = 111'000;
+constexpr double kWidestBuilding = 0.1;  // degrees, 11 km
 
 class Georeference {
 public:
@@ -39,6 +40,7 @@ public:
         if (given_.name.empty() && given_.units.empty() && options_.unit == 0 && options_.crs == 0)
             warnOfHighRooms(model_, given_.place, diagnostics_);
         gml::AxisDecision axes = decide();
+        if (axes.isGeographic) SVT_DO(checkDegrees(axes));
         if (axes.isGeographic && !given_.anchors.empty()) {
             placeInDegrees(axes.isNorthFirst);
             findUsed();
@@ -78,6 +80,24 @@ private:
         if (box_.isEmpty())
             for (const model::Polyline& line : model_.lines)
                 for (const Vec3d& point : line.points) box_.add(point);
+    }
+
+    // Degrees in which buildings would be kilometres wide are lengths, if the user says so.
+    Result<void> checkDegrees(gml::AxisDecision& axes) {
+        const double width = medianWidth(model_);
+        if (!(width > kWidestBuilding)) return {};
+        if (options_.unit == 0)
+            return Error(
+                Code::UnitInDoubt,
+                fmt::format("the coordinates are degrees by their CRS, '{}', but half of the buildings and rooms "
+                            "are {:.3g} degrees wide or more, which is {:.0f} km. If the coordinates are lengths, "
+                            "state their unit, such as --unit m, to read them without the CRS",
+                            given_.name.substr(0, 200), width, width * kMetresPerDegree / 1000),
+                given_.place);
+        axes = {};
+        axes.isNorthFirst = options_.axisOrder < 0;
+        axes.remark = "the name means degrees, but --unit states lengths; taken without the CRS";
+        return {};
     }
 
     // Shapes that the reader placed by adding metres to degrees.
@@ -150,6 +170,8 @@ private:
                             box_.min.x, box_.max.x, box_.min.y, box_.max.y, given_.name.substr(0, 200)),
                 given_.place);
         if (facts.isDegrees && !isDegrees) {  // the name is wrong
+            model_.crs.name.clear();
+            model_.crs.epsg = 0;
             if (options_.crs != 0) return cannotProject("the coordinates are not those of its CRS");
             double heightUnit = 1;
             scaleAll(heightUnit);

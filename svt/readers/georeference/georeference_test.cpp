@@ -99,6 +99,36 @@ TEST(Georeference, WhereBothOrdersArePossibleTheAreaOfUseOrTheNameDecides) {
     EXPECT_EQ(place(kMunich, "urn:ogc:def:crs:EPSG::4979").model.crs.epsg, 32632);
 }
 
+TEST(Georeference, DegreesInWhichBuildingsAreKilometresWideAreRefusedOrLengths) {
+    // A room of 52 by 50 metres in a file that names degrees, as some editors of IndoorGML write it.
+    const std::vector<Vec3d> room{{0.16, 0.17, 0}, {51.86, 0.17, 0}, {51.86, 49.83, 3}};
+    const Placed refused = place(room, "EPSG::4326");
+    ASSERT_FALSE(refused.result);
+    EXPECT_EQ(refused.result.error().code(), Code::UnitInDoubt);
+    EXPECT_NE(refused.result.error().message().find("51.7 degrees wide"), std::string::npos);
+    ReadOptions inMetres;
+    inMetres.unit = 1;
+    const Placed placed = place(room, "EPSG::4326", inMetres);
+    ASSERT_TRUE(placed.result) << placed.result.error().toString();
+    EXPECT_EQ(placed.point(1), room[1]);
+    EXPECT_EQ(placed.model.crs.epsg, 0);
+    EXPECT_EQ(placed.model.crs.name, "");
+    EXPECT_EQ(placed.diagnostics.count(Severity::Warning), 1u) << placed.findings();
+    // Degrees of a building have no other unit.
+    const Placed wrong = place(kTokyo, "EPSG:6697", inMetres);
+    ASSERT_FALSE(wrong.result);
+    EXPECT_EQ(wrong.result.error().code(), Code::BadArgument);
+}
+
+TEST(Georeference, CoordinatesTooLargeForDegreesHaveNoCrs) {
+    const std::vector<Vec3d> points{{458000, 5438000, 110}, {458010, 5438000, 110}, {458010, 5438010, 115}};
+    const Placed placed = place(points, "EPSG:4326");
+    ASSERT_TRUE(placed.result);
+    EXPECT_EQ(placed.point(0), points[0]);
+    EXPECT_EQ(placed.model.crs.epsg, 0);
+    EXPECT_EQ(placed.diagnostics.count(Severity::Warning), 1u) << placed.findings();
+}
+
 TEST(Georeference, FeetBecomeMetresWithTheirHeights) {
     const std::vector<Vec3d> feet{{981106, 195544, 100}, {981206, 195544, 100}, {981206, 195644, 130}};
     const Vec3d metres{299041.7069, 59601.9304, 100};

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <vector>
 
 namespace svt::readers::georeference {
@@ -44,19 +45,24 @@ string_view wordOf(string_view text, int number) noexcept {
     return word;
 }
 
-// Half of the rooms are at most as high; 0 without rooms.
-double medianRoomHeight(const model::BuildingModel& model) {
-    std::vector<double> heights;
+// Half of the features of these classes have at most this size; 0 without any.
+template <class SizeOf>
+double medianSize(const model::BuildingModel& model, std::initializer_list<string_view> classes, const SizeOf& sizeOf) {
+    std::vector<double> sizes;
     for (const model::Feature& feature : model.features) {
-        if (feature.className != "BuildingRoom") continue;
+        if (std::find(classes.begin(), classes.end(), feature.className) == classes.end()) continue;
         Box3d box;
         for (const model::Geometry& geometry : feature.geometries) box.add(model.bounds(geometry));
-        if (!box.isEmpty()) heights.push_back(box.size().z);
+        if (!box.isEmpty()) sizes.push_back(sizeOf(box.size()));
     }
-    if (heights.empty()) return 0;
-    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>((heights.size() - 1) / 2);
-    std::nth_element(heights.begin(), middle, heights.end());
+    if (sizes.empty()) return 0;
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>((sizes.size() - 1) / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
     return *middle;
+}
+
+double medianRoomHeight(const model::BuildingModel& model) {
+    return medianSize(model, {"BuildingRoom"}, [](Vec3d size) { return size.z; });
 }
 
 }  // namespace
@@ -75,6 +81,11 @@ Result<double> unitOfModel(const model::BuildingModel& model, string_view labels
                              "they are metres)",
                              height, height > 1000 ? "mm" : "cm"),
                  place);
+}
+
+double medianWidth(const model::BuildingModel& model) {
+    return medianSize(model, {"Building", "BuildingPart", "BuildingRoom"},
+                      [](Vec3d size) { return std::max(size.x, size.y); });
 }
 
 void warnOfHighRooms(const model::BuildingModel& model, const Place& place, Diagnostics& diagnostics) {

@@ -22,6 +22,10 @@ namespace svt::readers::georeference {
 [[nodiscard]] Result<double> unitOfModel(const model::BuildingModel& model, std::string_view labels, double stated,
                                          const Place& place);
 
+/// Half of the buildings, their parts and rooms with geometry are at least as wide along x or y, in units of the file; 0
+/// without any.
+[[nodiscard]] double medianWidth(const model::BuildingModel& model);
+
 /// Warns of a model whose unit nobody states, if half of its rooms are higher than 10 units.
 void warnOfHighRooms(const model::BuildingModel& model, const Place& place, Diagnostics& diagnostics);
 

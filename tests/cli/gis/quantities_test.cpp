@@ -284,5 +284,33 @@ TEST_F(Quantities, OfSurfacesHaveNoVolume) {
     EXPECT_NE(result.err.find("net volume of 2 of 2 objects is unknown"), std::string::npos) << result.toString();
 }
 
+// The space of a building that belongs to no room, here an attic, is the material behind its surfaces. No bound holds.
+TEST_F(Quantities, OfMaterialBehindSurfacesAreAssumed) {
+    const std::vector<Face> faces = boxFaces(0, 0, 0, 8, 6, 6);
+    std::string inside;
+    for (std::size_t n = 0; n < faces.size(); ++n) {
+        const std::string kind = n == 0 ? "bldg:GroundSurface" : n == 1 ? "bldg:RoofSurface" : "bldg:WallSurface";
+        inside += "<bldg:boundedBy><" + kind + "><bldg:lod4MultiSurface><gml:MultiSurface><gml:surfaceMember>" +
+                  "<gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>" + faces[n] +
+                  "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember>" +
+                  "</gml:MultiSurface></bldg:lod4MultiSurface></" + kind + "></bldg:boundedBy>";
+    }
+    inside += "<bldg:interiorRoom><bldg:Room gml:id='room'><bldg:lod4Solid>" +
+              solid(boxFaces(0.3, 0.3, 0.3, 7.7, 5.7, 3)) + "</bldg:lod4Solid></bldg:Room></bldg:interiorRoom>";
+    writeText(folder / "attic.gml", cityModel(building("b", solid(faces), inside)));
+    const CommandResult result = runSvt(folder.path(), {"quantities", "attic.gml", "--spacing", "0.1", "--json"});
+    ASSERT_EQ(result.exitCode, 0) << result.toString();
+    const json report = json::parse(result.out);
+    ASSERT_EQ(report["rows"].size(), 6u) << result.out;
+    for (const json& row : report["rows"]) {
+        EXPECT_EQ(row["trust"], "assumed");
+        EXPECT_GT(row["netVolume"], 0);
+        EXPECT_TRUE(row["bound"].is_null()) << row;
+    }
+    EXPECT_NEAR(report["total"]["netVolume"].get<double>(), 8 * 6 * 6 - 7.4 * 5.4 * 2.7, 6);
+    EXPECT_TRUE(report["total"]["bound"].is_null());
+    EXPECT_NE(result.err.find("the volumes of 6 boundary surfaces are assumed"), std::string::npos) << result.err;
+}
+
 }  // namespace
 }  // namespace svt::test

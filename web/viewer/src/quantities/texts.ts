@@ -66,6 +66,7 @@ const kQuantityTexts = {
   trust_tight: ["tight", "dicht"],
   trust_caps: ["closed by caps", "mit Deckeln geschlossen"],
   trust_voxels: ["voxels", "Voxel"],
+  trust_assumed: ["assumed material", "angenommenes Material"],
 
   column_id: ["ID", "Kennung"],
   column_class: ["Class", "Klasse"],
