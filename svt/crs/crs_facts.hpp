@@ -17,10 +17,11 @@ enum class AxisOrder {
 
 /// Facts about a code. An unknown code has those of a projection in metres with east first.
 struct CrsFacts {
-    int horizontal = 0;      ///< code of the horizontal part of a compound; else the code itself
-    int vertical = 0;        ///< code of the vertical part of a compound, 0: none
-    bool isDegrees = false;  ///< geographic
-    bool isMetres = true;    ///< false: degrees, feet or another unit
+    int horizontal = 0;         ///< code of the horizontal part of a compound; else the code itself
+    int vertical = 0;           ///< code of the vertical part of a compound, 0: none
+    bool isDegrees = false;     ///< geographic
+    bool isGeocentric = false;  ///< metres from the centre of the earth, so z does not point up
+    bool isMetres = true;       ///< false: degrees, feet or another unit
     AxisOrder order = AxisOrder::EastNorth;
 };
 

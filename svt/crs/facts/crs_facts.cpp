@@ -54,6 +54,8 @@ CrsFacts factsOf(int epsg) noexcept {
             result.vertical = compound.vertical;
         }
     result.isDegrees = isIn(facts::kGeographicCodes, epsg) || isIn(facts::kGeographicCodes, result.horizontal);
+    result.isGeocentric = std::find(std::begin(facts::kGeocentricCodes), std::end(facts::kGeocentricCodes), epsg) !=
+                          std::end(facts::kGeocentricCodes);
     result.isMetres =
         !result.isDegrees && !isIn(facts::kOtherUnits, result.horizontal) && !facts::findMetricTwin(result.horizontal);
     if (result.isDegrees || isIn(facts::kNorthFirstCodes, epsg) || isIn(facts::kNorthFirstCodes, result.horizontal))

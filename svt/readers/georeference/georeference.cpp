@@ -34,6 +34,10 @@ public:
     }
 
     Result<void> run() {
+        if (crs::factsOf(code_).isGeocentric)
+            return cannotProject(
+                "the coordinates count from the centre of the earth, so no axis points up; project the file first, "
+                "to degrees or metres");
         findUsed(given_.anchors);
         SVT_TRY(unit, unitOfModel(model_, given_.units, options_.unit, given_.place));
         unit_ = *unit;

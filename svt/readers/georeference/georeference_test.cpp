@@ -120,6 +120,16 @@ TEST(Georeference, DegreesInWhichBuildingsAreKilometresWideAreRefusedOrLengths) 
     EXPECT_EQ(wrong.result.error().code(), Code::BadArgument);
 }
 
+TEST(Georeference, GeocentricCoordinatesAreRefused) {
+    const std::vector<Vec3d> points{{3923513, 299831, 5002803}, {3923523, 299831, 5002803}, {3923513, 299841, 5002803}};
+    for (const std::string_view name : {"https://www.opengis.net/def/crs/EPSG/0/4978", "EPSG:4936"}) {
+        const Placed placed = place(points, name);
+        ASSERT_FALSE(placed.result) << name;
+        EXPECT_EQ(placed.result.error().code(), Code::CannotProject);
+        EXPECT_NE(placed.result.error().message().find("centre of the earth"), std::string::npos);
+    }
+}
+
 TEST(Georeference, CoordinatesTooLargeForDegreesHaveNoCrs) {
     const std::vector<Vec3d> points{{458000, 5438000, 110}, {458010, 5438000, 110}, {458010, 5438010, 115}};
     const Placed placed = place(points, "EPSG:4326");

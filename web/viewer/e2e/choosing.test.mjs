@@ -386,6 +386,7 @@ describe("on a phone", () => {
       for (const side of ["x", "y", "width", "height"]) assert.ok(Math.abs(layer[side] - picture[side]) < 1, `${side} of the layer`);
     });
     assert.deepEqual(await findings(), []);
+    const picture = await stage();
     const finger = async (kind, x, y) =>
       visit.page.evaluate(
         ([type, clientX, clientY]) => {

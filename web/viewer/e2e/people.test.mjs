@@ -254,13 +254,16 @@ describe("languages", () => {
     await inPage("s.selection.select([v])", id);
     await visit.until("s.selection.properties");
     const properties = await inPage("s.selection.properties");
-    const text = (await visit.page.locator("svt-properties dl, svt-properties table").allInnerTexts()).join("\n");
-    assert.ok(text.includes(`${properties.surface.toFixed(2).replace(".", ",")} m²`), text);
-    for (const [key, { value }] of Object.entries(properties.numbers)) {
-      const digits = Math.min(6, /\.(\d+)/.exec(properties.attributes[key])?.[1].length ?? 0);
-      const expected = value.toLocaleString("de", { minimumFractionDigits: digits, maximumFractionDigits: digits });
-      assert.ok(text.includes(expected), `${key}: ${expected} in ${text}`);
-    }
+    // The attributes come with a later script.
+    await visit.eventually(async () => {
+      const text = (await visit.page.locator("svt-properties dl, svt-properties table").allInnerTexts()).join("\n");
+      assert.ok(text.includes(`${properties.surface.toFixed(2).replace(".", ",")} m²`), text);
+      for (const [key, { value }] of Object.entries(properties.numbers)) {
+        const digits = Math.min(6, /\.(\d+)/.exec(properties.attributes[key])?.[1].length ?? 0);
+        const expected = value.toLocaleString("de", { minimumFractionDigits: digits, maximumFractionDigits: digits });
+        assert.ok(text.includes(expected), `${key}: ${expected} in ${text}`);
+      }
+    });
     await visit.tool("share");
     await visit.page.click("#keep-view");
     const title = await visit.page.locator("svt-bookmark-list li input").first().getAttribute("title");
