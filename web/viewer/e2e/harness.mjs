@@ -12,6 +12,8 @@ export const repository = resolve(here, "../../..");
 export const page = process.env.SVT_VIEWER_DIR ?? join(repository, "build/release/share/svt/viewer");
 export const command = process.env.SVT_COMMAND ?? join(repository, "build/release/bin/svt");
 export const dataDir = process.env.SVT_DATA_DIR ?? resolve(repository, "../shared/data");
+/** Scripts and style sheets come this many milliseconds late, half or twice as many by chance, to find tests that do not wait for them. */
+const delay = Number(process.env.SVT_DELAY ?? 0);
 /** Without the windows of Chromium, which take a third of the processor time of a visit. */
 export const browserPath = process.env.SVT_CHROMIUM ?? "/usr/bin/chromium-headless-shell";
 
@@ -44,6 +46,8 @@ export function serve(files = {}, isIsolated = false) {
       ...(isIsolated ? { "Cross-Origin-Opener-Policy": "same-origin", "Cross-Origin-Embedder-Policy": "require-corp" } : {}),
     });
     if (isText) response.end(JSON.stringify(file));
+    else if (delay && /\.(js|css)$/.test(path))
+      setTimeout(() => createReadStream(file).pipe(response), delay * 2 ** (2 * Math.random() - 1));
     else createReadStream(file).pipe(response);
   });
   return new Promise((done) =>
