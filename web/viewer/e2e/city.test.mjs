@@ -161,6 +161,8 @@ describe("A city on the page", () => {
     assert.ok(asked.filter(({ file }) => file === "ids.bin").length <= 2);
     const properties = await inPage("s.selection.properties");
     assert.ok(properties.surface > 50 && properties.box.high[2] > properties.box.low[2], JSON.stringify(properties));
+    await page.getByRole("button", { name: "Highlight", exact: true }).first().waitFor();
+    assert.equal(await page.getByRole("button", { name: "Cut away to it" }).count(), 0, "cities have no cutaway");
     await page.fill("#search", "nobody");
     await page.getByText("to search for this id in the whole city").waitFor();
     await page.press("#search", "Enter");

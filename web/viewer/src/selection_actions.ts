@@ -33,7 +33,7 @@ export function selectionActions(session: Session): Action[] {
       run: () => (view.state.show.length ? view.showOthers() : view.showOnlySelected()),
     },
     { id: "highlight", text: () => t("highlightIt"), icon: "focus", isEnabled: isAny, run: effect("highlight") },
-    { id: "cutaway", text: () => t("cutawayTo"), icon: "target", isEnabled: isAny, run: effect("cutaway") },
+    { id: "cutaway", text: () => t("cutawayTo"), icon: "target", isEnabled: () => isAny() && !volume.isCity, run: effect("cutaway") },
     {
       id: "same-type",
       text: () => t("sameType", { type: typeAt(volume.index, first()) }),

@@ -170,7 +170,7 @@ export class PropertiesPanel extends Part {
     return html`<div class="actions">
       <button @click=${() => void session.view.goToSelected()}>${icon("fit", 16)}${t("frameIt")}</button>
       <button aria-pressed=${now.effect === "highlight"} @click=${() => session.view.set({ effect: now.effect === "highlight" ? "none" : "highlight", focus })}>${icon("focus", 16)}${t("highlightIt")}</button>
-      <button aria-pressed=${now.effect === "cutaway"} @click=${() => session.view.set({ effect: now.effect === "cutaway" ? "none" : "cutaway", focus })}>${icon("target", 16)}${t("cutawayTo")}</button>
+      ${session.volume.isCity ? nothing : html`<button aria-pressed=${now.effect === "cutaway"} @click=${() => session.view.set({ effect: now.effect === "cutaway" ? "none" : "cutaway", focus })}>${icon("target", 16)}${t("cutawayTo")}</button>`}
       <button aria-pressed=${isHidden} @click=${() => session.view.hideSelected(!isHidden)}>${icon(isHidden ? "eye" : "eyeOff", 16)}${isHidden ? t("show") : t("hide")}</button>
       <button aria-pressed=${now.show.length > 0} @click=${() => (now.show.length ? session.view.showOthers() : session.view.showOnlySelected())}>${icon("only", 16)}${t("onlyThis")}</button>
     </div>`;

@@ -34,10 +34,13 @@ export class FocusTool extends Part {
     const { effect, focus, shell } = this.session.view.now;
     const isOn = effect === "highlight" || effect === "cutaway";
     return html`
-      <div class="segments" role="radiogroup" aria-label=${t("focusEffect")}>${(["none", "highlight", "cutaway"] as const).map(
-        (wanted) =>
-          html`<button role="radio" aria-checked=${wanted === "none" ? !isOn : effect === wanted} @click=${() => this.session.view.set({ effect: wanted as Effect })}>${t(kEffects[wanted])}</button>`,
-      )}</div>
+      <div class="segments" role="radiogroup" aria-label=${t("focusEffect")}>${(["none", "highlight", "cutaway"] as const)
+        // Cities have no cutaway: their parts are drawn one by one.
+        .filter((wanted) => wanted !== "cutaway" || !this.session.volume.isCity)
+        .map(
+          (wanted) =>
+            html`<button role="radio" aria-checked=${wanted === "none" ? !isOn : effect === wanted} @click=${() => this.session.view.set({ effect: wanted as Effect })}>${t(kEffects[wanted])}</button>`,
+        )}</div>
       <form @submit=${this.apply}>
         <input id="focus-query" autocomplete="off" spellcheck="false" aria-label=${t("focusQuery")} placeholder=${t("focusQuery")} .value=${focus.query} />
         <button type="submit">${t("apply")}</button>
