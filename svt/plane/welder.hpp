@@ -49,8 +49,8 @@ private:
     std::unordered_map<std::uint64_t, std::uint32_t> last_;  // cell -> its last number
 };
 
-/// Numbers points. A point near earlier points gets the number of the first of them, so it has the same number each time.
-/// The caller decides which points are near.
+/// Numbers points. A point near earlier points gets the number of the first of them, so it has the same number each
+/// time. The caller decides which points are near.
 /// \tparam P  a point of a plane or of space
 template <class P>
 class Welder {

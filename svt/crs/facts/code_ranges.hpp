@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// EPSG codes that are geographic, those that are geocentric, and those with north before east. Facts of the EPSG dataset (10.076);
-/// a range contains no code of another kind. Compound codes count as their horizontal part.
+/// EPSG codes that are geographic, those that are geocentric, and those with north before east. Facts of the EPSG
+/// dataset (10.076); a range contains no code of another kind. Compound codes count as their horizontal part.
 
 namespace svt::crs::facts {
 
