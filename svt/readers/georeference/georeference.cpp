@@ -44,7 +44,7 @@ public:
         if (given_.name.empty() && given_.units.empty() && options_.unit == 0 && options_.crs == 0)
             warnOfHighRooms(model_, given_.place, diagnostics_);
         gml::AxisDecision axes = decide();
-        if (axes.isGeographic) SVT_DO(checkDegrees(axes));
+        if (axes.isGeographic && (code_ != 0 || gml::isCrs84(given_.name))) SVT_DO(checkDegrees(axes));
         if (axes.isGeographic && !given_.anchors.empty()) {
             placeInDegrees(axes.isNorthFirst);
             findUsed();
@@ -88,7 +88,7 @@ private:
 
     // Degrees in which buildings would be kilometres wide are lengths, if the user says so.
     Result<void> checkDegrees(gml::AxisDecision& axes) {
-        const double width = medianWidth(model_);
+        const double width = medianWidth(model_, given_.anchors);
         if (!(width > kWidestBuilding)) return {};
         if (options_.unit == 0)
             return Error(

@@ -120,6 +120,17 @@ TEST(Georeference, DegreesInWhichBuildingsAreKilometresWideAreRefusedOrLengths) 
     EXPECT_EQ(wrong.result.error().code(), Code::BadArgument);
 }
 
+TEST(Georeference, ShapesPlacedByAddingMetresToDegreesAreNotKilometresWide) {
+    const Vec3d anchor{35.6812, 139.7671, 3};
+    model::BuildingModel model;
+    addBuilding(model, "hut", {anchor, anchor + Vec3d{3, 0, 0}, anchor + Vec3d{3, 2, 5}});
+    const std::vector<Vec3d> anchors{anchor};
+    Diagnostics diagnostics;
+    const auto done = georeference(model, {"urn:ogc:def:crs:EPSG::6697", {}, false, {}, anchors}, {}, diagnostics);
+    ASSERT_TRUE(done) << done.error().toString();
+    expectNear(model.polygons[0].points[0], kTokyoMetres, 1e-4);
+}
+
 TEST(Georeference, GeocentricCoordinatesAreRefused) {
     const std::vector<Vec3d> points{{3923513, 299831, 5002803}, {3923523, 299831, 5002803}, {3923513, 299841, 5002803}};
     for (const std::string_view name : {"https://www.opengis.net/def/crs/EPSG/0/4978", "EPSG:4936"}) {

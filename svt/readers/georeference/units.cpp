@@ -1,6 +1,8 @@
 #include <svt/readers/georeference/units.hpp>
 
 #include <svt/crs/crs_facts.hpp>
+#include <svt/model/surface_uses.hpp>
+#include <svt/readers/georeference/georeference.hpp>
 
 #include <fmt/format.h>
 
@@ -46,13 +48,14 @@ string_view wordOf(string_view text, int number) noexcept {
 }
 
 // Half of the features of these classes have at most this size; 0 without any.
-template <class SizeOf>
-double medianSize(const model::BuildingModel& model, std::initializer_list<string_view> classes, const SizeOf& sizeOf) {
+template <class BoxOf, class SizeOf>
+double medianSize(const model::BuildingModel& model, std::initializer_list<string_view> classes, const BoxOf& boxOf,
+                  const SizeOf& sizeOf) {
     std::vector<double> sizes;
     for (const model::Feature& feature : model.features) {
         if (std::find(classes.begin(), classes.end(), feature.className) == classes.end()) continue;
         Box3d box;
-        for (const model::Geometry& geometry : feature.geometries) box.add(model.bounds(geometry));
+        for (const model::Geometry& geometry : feature.geometries) box.add(boxOf(geometry));
         if (!box.isEmpty()) sizes.push_back(sizeOf(box.size()));
     }
     if (sizes.empty()) return 0;
@@ -62,7 +65,9 @@ double medianSize(const model::BuildingModel& model, std::initializer_list<strin
 }
 
 double medianRoomHeight(const model::BuildingModel& model) {
-    return medianSize(model, {"BuildingRoom"}, [](Vec3d size) { return size.z; });
+    return medianSize(
+        model, {"BuildingRoom"}, [&](const model::Geometry& geometry) { return model.bounds(geometry); },
+        [](Vec3d size) { return size.z; });
 }
 
 }  // namespace
@@ -83,8 +88,18 @@ Result<double> unitOfModel(const model::BuildingModel& model, string_view labels
                  place);
 }
 
-double medianWidth(const model::BuildingModel& model) {
-    return medianSize(model, {"Building", "BuildingPart", "BuildingRoom"},
+double medianWidth(const model::BuildingModel& model, std::span<const Vec3d> anchors) {
+    const auto boxOf = [&](const model::Geometry& geometry) {
+        Box3d box;
+        model::forEachUse(geometry, [&](const model::SurfaceUse& use) {
+            if (!anchors.empty() && anchors[use.polygon] != kNoAnchor)
+                box.add(anchors[use.polygon]);
+            else
+                for (const Vec3d& point : model.polygons[use.polygon].points) box.add(point);
+        });
+        return box;
+    };
+    return medianSize(model, {"Building", "BuildingPart", "BuildingRoom"}, boxOf,
                       [](Vec3d size) { return std::max(size.x, size.y); });
 }
 

@@ -6,6 +6,7 @@
 #include <svt/core/result.hpp>
 #include <svt/model/building_model.hpp>
 
+#include <span>
 #include <string_view>
 
 namespace svt::readers::georeference {
@@ -24,7 +25,8 @@ namespace svt::readers::georeference {
 
 /// Half of the buildings, their parts and rooms with geometry are at least as wide along x or y, in units of the file; 0
 /// without any.
-[[nodiscard]] double medianWidth(const model::BuildingModel& model);
+/// \param anchors  as in GivenCrs: a shape that was placed by adding metres to degrees counts as its anchor
+[[nodiscard]] double medianWidth(const model::BuildingModel& model, std::span<const Vec3d> anchors);
 
 /// Warns of a model whose unit nobody states, if half of its rooms are higher than 10 units.
 void warnOfHighRooms(const model::BuildingModel& model, const Place& place, Diagnostics& diagnostics);

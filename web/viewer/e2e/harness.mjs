@@ -12,7 +12,7 @@ export const repository = resolve(here, "../../..");
 export const page = process.env.SVT_VIEWER_DIR ?? join(repository, "build/release/share/svt/viewer");
 export const command = process.env.SVT_COMMAND ?? join(repository, "build/release/bin/svt");
 export const dataDir = process.env.SVT_DATA_DIR ?? resolve(repository, "../shared/data");
-/** Scripts and style sheets come this many milliseconds late, half or twice as many by chance, to find tests that do not wait for them. */
+/** Milliseconds by which scripts and style sheets come late, half to twice as many by chance. It finds tests that do not wait for them. */
 const delay = Number(process.env.SVT_DELAY ?? 0);
 /** Without the windows of Chromium, which take a third of the processor time of a visit. */
 export const browserPath = process.env.SVT_CHROMIUM ?? "/usr/bin/chromium-headless-shell";
