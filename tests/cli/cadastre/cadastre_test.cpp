@@ -231,7 +231,8 @@ TEST_F(Cadastre, UnknownRightsAreAnErrorWithTheKnownOnes) {
 // The units of a model that `svt cadastre` wrote, by name: class and volume.
 std::map<std::string, double> unitsOf(const std::filesystem::path& folder, const std::string& file) {
     std::map<std::string, double> units;
-    for (const json& unit : runSvtForJson(folder, {"cadastre", file, "--json"})["units"]) {
+    const json report = runSvtForJson(folder, {"cadastre", file, "--json"});
+    for (const json& unit : report["units"]) {
         EXPECT_EQ(unit["class"], "BuildingUnit");
         EXPECT_EQ(unit["body"], "solid");
         units[unit["name"]] = unit["bodyVolume"];
