@@ -162,8 +162,9 @@ std::vector<std::uint32_t> spacesOfLabels(const volume::LabelTable& labels) {
             continue;
         }
         const model::ClassRank rank = model::classRank(label.className);
-        const bool isPartOfRoom = rank == model::ClassRank::Furniture || rank == model::ClassRank::Installation ||
-                                  model::isBoundarySurface(label.className);
+        const bool isSheet = model::isBoundarySurface(label.className) && label.filling != volume::Filling::Body;
+        const bool isPartOfRoom =
+            isSheet || rank == model::ClassRank::Furniture || rank == model::ClassRank::Installation;
         if (!isPartOfRoom || label.parent == kNoLabel) continue;
         const std::uint32_t space = spaces[label.parent];
         if (space == kNoLabel) continue;

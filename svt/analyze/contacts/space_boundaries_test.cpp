@@ -116,6 +116,25 @@ TEST(SpaceBoundaries, WhatStandsInARoomBelongsToIt) {
     EXPECT_EQ(s.find().size(), 3u);
 }
 
+TEST(SpaceBoundaries, MaterialBehindASurfaceOfARoomIsALayerAndNotAPartOfTheRoom) {
+    Scene s;
+    const auto room = s.add("BuildingRoom"), wall = s.add("InteriorWallSurface", room);
+    s.add("Door", wall);
+    s.add("DoorSurface", wall);
+    s.add("BuildingFurniture", room);
+    s.table.labels[wall].filling = volume::Filling::Body;
+    EXPECT_EQ(spacesOfLabels(s.table), (std::vector<std::uint32_t>{room, kNoLabel, kNoLabel, kNoLabel, room}));
+    s.fill(wall, {2, 2, 2}, {38, 28, 18});
+    s.fill(room, {5, 5, 5}, {35, 25, 15});
+    const auto found = s.find();
+    ASSERT_EQ(found.size(), 3u);
+    for (const SpaceBoundary& b : found) {
+        EXPECT_EQ(b.b, kNoLabel);
+        ASSERT_EQ(b.layers.size(), 1u);
+        EXPECT_EQ(b.layers[0].label, wall);
+    }
+}
+
 TEST(SpaceBoundaries, ConductancesOfASlantedSlabAddUpToItsOwn) {
     Scene s;
     const auto below = s.add("BuildingRoom"), slab = s.add("BuildingConstructiveElement"),

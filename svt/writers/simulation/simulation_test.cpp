@@ -85,6 +85,23 @@ TEST(Fds, ObstaclesAreTheSolidVoxelsWithoutTheRoom) {
     EXPECT_TRUE(std::all_of(text->begin(), text->end(), [](char c) { return c == '\n' || (c >= ' ' && c < 127); }));
 }
 
+TEST(Fds, MaterialBehindSurfacesOfARoomIsAnObstacle) {
+    SemanticVolume volume = roomWithADoor();
+    volume::Label& wall = volume.labels.labels[0];
+    wall.className = "InteriorWallSurface";
+    wall.parent = 3;
+    // Parents come before their children.
+    std::swap(volume.labels.labels[0], volume.labels.labels[3]);
+    volume.labels.labels[3].parent = 0;
+    for (const auto& [filling, isObstacle] :
+         {std::pair(volume::Filling::Body, true), std::pair(volume::Filling::Surface, false)}) {
+        volume.labels.labels[3].filling = filling;
+        const auto text = makeFds(volume, "house", {});
+        ASSERT_TRUE(text);
+        EXPECT_EQ(text->find("SURF_ID='Wall 2' /") != std::string::npos, isObstacle) << "one of two walls";
+    }
+}
+
 TEST(Fds, HolesStandBehindAllObstaclesAndVentsOnBothSides) {
     const SemanticVolume volume = roomWithADoor();
     VolumeWriteOptions options;

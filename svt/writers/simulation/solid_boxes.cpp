@@ -1,10 +1,9 @@
 #include <svt/record/record.hpp>
 #include <svt/writers/labels/label_looks.hpp>
+#include <svt/writers/simulation/air_labels.hpp>
 #include <svt/writers/simulation/solid_boxes.hpp>
 
 #include <svt/analyze/selection.hpp>
-#include <svt/analyze/space_boundaries.hpp>
-#include <svt/model/classes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -23,11 +22,6 @@ std::string groupName(const Label& label, MergeBy by) {
         case MergeBy::Label: break;
     }
     return shownName(label);
-}
-
-// Surfaces of a room are one voxel of it; its furniture is not.
-bool isAir(const Label& label, bool belongsToSpace) {
-    return belongsToSpace && (model::isSpace(label.className) || model::isBoundarySurface(label.className));
 }
 
 // The labels that a query selects; an empty query selects none.
@@ -58,10 +52,9 @@ double roundedMetres(double metres) noexcept { return std::round(metres * 1e6) /
 
 Result<SolidBoxes> solidBoxes(const volume::SemanticVolume& volume, const VolumeWriteOptions& options) {
     const auto& labels = volume.labels.labels;
-    const std::vector<std::uint32_t> spaces = analyze::spacesOfLabels(volume.labels);
+    const std::vector<std::uint32_t> air = airOfLabels(volume.labels);
     std::vector<bool> isSolid(labels.size());
-    for (std::size_t l = 0; l < labels.size(); ++l)
-        isSolid[l] = labels[l].voxels > 0 && !isAir(labels[l], spaces[l] != volume::kNoLabel);
+    for (std::size_t l = 0; l < labels.size(); ++l) isSolid[l] = labels[l].voxels > 0 && air[l] == volume::kNoLabel;
     if (std::none_of(isSolid.begin(), isSolid.end(), [](bool is) { return is; }))
         for (std::size_t l = 0; l < labels.size(); ++l) isSolid[l] = labels[l].voxels > 0;
 
