@@ -22,7 +22,7 @@ packages=(
 peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth valgrind)
 readers=(ffmpeg python3-nibabel python3-tifffile python3-zarr python3-vtk9 python3-networkx python3-numcodecs
   python3-openvdb python3-xarray python3-pandas python3-geopandas python3-netcdf4 python3-dask
-  jupyter-nbconvert python3-ipykernel libembree-dev)
+  jupyter-nbconvert python3-ipykernel libembree-dev openfoam openmpi-bin)
 web=(emscripten libfast-float-dev dpkg-dev chromium-headless-shell)
 slurm=(slurmctld slurmd slurm-client munge python3-yaml)
 python=(python3-dev pybind11-dev python3-numpy python3-scipy)

@@ -39,8 +39,8 @@ struct SpaceBoundary {
 };
 
 /// The space of each label. Spaces filled with air (model::isSpace) belong to themselves. Objects in a room, such as
-/// furniture, and the sheets that bound it belong to the room. kNoLabel: a component, also a surface that stands for the
-/// material behind it (volume::Filling::Body), and its doors and windows.
+/// furniture, and the sheets that bound it belong to the room. kNoLabel: a component, also a surface that stands for
+/// the material behind it (volume::Filling::Body), and its doors and windows.
 [[nodiscard]] std::vector<std::uint32_t> spacesOfLabels(const volume::LabelTable& labels);
 
 /// Background counts as outside, also where it is enclosed. Paths from a space back into itself, and between outside

@@ -7,6 +7,7 @@
 ///     | .csv with a table of places    | values of sensors
 ///     | .json of OGC SensorThings      | values of sensors
 ///     | .vti, .vtr, .pvd, .nrrd        | lattices of ParaView and others
+///     | folder, or the .foam in it     | results of OpenFOAM
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/result.hpp>

@@ -93,4 +93,15 @@ private:
     std::shared_ptr<const Node> root_;
 };
 
+/// A query and a number, as in options that give values to features.
+struct QueryValue {
+    std::string query;
+    double value = 0;
+};
+
+/// Parses "QUERY:NUMBER", such as "name=Bath:24". The last colon separates, so the query may contain colons.
+/// \param form  for the message, such as "QUERY:CELSIUS, as in 'name=Bath:24'"
+/// \return both, or BadArgument with `form`, or BadQuery as Query::parse()
+[[nodiscard]] Result<QueryValue> parseQueryValue(std::string_view text, std::string_view form);
+
 }  // namespace svt::model

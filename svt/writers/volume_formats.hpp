@@ -3,6 +3,7 @@
 /// The formats in which a volume can be written. One table is the source of `svt convert`, its help, shell completions
 /// and the manual; one call writes any format.
 
+#include <svt/core/diagnostics.hpp>
 #include <svt/core/file_content.hpp>
 #include <svt/core/names.hpp>
 #include <svt/core/progress.hpp>
@@ -75,25 +76,34 @@ struct BoxWriteOptions {
     std::size_t maxBoxes = 1'000'000;  ///< more boxes are an error
     std::string holes, vents;          ///< FDS: queries for open components, and for those with vents on both sides
 };
+/// Options of OpenFOAM.
+struct FoamWriteOptions {
+    std::string air;                        ///< query for the rooms; empty: all
+    std::vector<std::string> temperatures;  ///< of surfaces, "QUERY:CELSIUS"; later ones take precedence
+};
 record::Members<CityGmlWriteOptions> membersOf(const CityGmlWriteOptions*) noexcept;
 record::Members<ZarrWriteOptions> membersOf(const ZarrWriteOptions*) noexcept;
 record::Members<PrecomputedWriteOptions> membersOf(const PrecomputedWriteOptions*) noexcept;
 record::Members<TilesetWriteOptions> membersOf(const TilesetWriteOptions*) noexcept;
 record::Members<VdbWriteOptions> membersOf(const VdbWriteOptions*) noexcept;
 record::Members<BoxWriteOptions> membersOf(const BoxWriteOptions*) noexcept;
+record::Members<FoamWriteOptions> membersOf(const FoamWriteOptions*) noexcept;
 
 struct VolumeWriteOptions {
     bool isCompressed = true;                  ///< dense formats with a choice: gzip or zlib; false: raw
     GlbFaces faces = GlbFaces::Planes;         ///< formats of triangles
     SurfaceSource from = SurfaceSource::Auto;  ///< glTF and 3D Tiles
     TextureKind texture = TextureKind::Pixel;
-    std::uint64_t maxVoxels = std::uint64_t{1} << 24;  ///< of samples as numbers in a document
+    /// The most samples as numbers in a document, and the most cells of a mesh.
+    std::uint64_t maxVoxels = std::uint64_t{1} << 24;
     CityGmlWriteOptions cityGml;
     ZarrWriteOptions zarr;
     PrecomputedWriteOptions precomputed;
     TilesetWriteOptions tileset;
     VdbWriteOptions vdb;
     BoxWriteOptions boxes;
+    FoamWriteOptions foam;
+    Diagnostics* diagnostics = nullptr;  ///< receives what a writer assumed or left out
     int threads = 0;                     ///< maximum; 0: all cores. The bytes do not depend on it.
     const Progress* progress = nullptr;  ///< stages by format
 };

@@ -1,5 +1,6 @@
 // For any bytes in a file of results, sensors or a lattice, valid fields come out, or an error. The first byte gives the file:
-// s: .sf, 3: .s3d, m: .smv, d: table of devices, c: table of sensors, p: places of sensors, j: SensorThings, v: VTK, n: NRRD.
+// s: .sf, 3: .s3d, m: .smv, d: table of devices, c: table of sensors, p: places of sensors, j: SensorThings, v: VTK, n: NRRD;
+// of a case of OpenFOAM: T: field, P: points, F: faces, O: owners, A: cells of a processor.
 #include <svt/core/file.hpp>
 #include <svt/field_readers/read_fields.hpp>
 #include <svt/fields/check_field.hpp>
@@ -22,6 +23,38 @@ constexpr std::string_view kCase =
 void write(const std::filesystem::path& path, std::string_view bytes) {
     std::ofstream stream(path, std::ios::binary);
     stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+// A case of OpenFOAM with one cell, whose files are replaced one at a time.
+struct FoamPart {
+    char kind;
+    const char *file, *text;
+};
+constexpr FoamPart kFoam[] = {
+    {'T', "1/T",
+     "FoamFile{class volScalarField;}dimensions [0 0 0 1 0 0 0];internalField nonuniform List<scalar> 1(293);"},
+    {'P', "constant/polyMesh/points",
+     "FoamFile{class vectorField;}8((0 0 0)(1 0 0)(0 1 0)(1 1 0)(0 0 1)(1 0 1)(0 1 1)(1 1 1))"},
+    {'F', "constant/polyMesh/faces",
+     "FoamFile{class faceList;}6(4(0 2 6 4)4(1 3 7 5)4(0 1 5 4)4(2 3 7 6)4(0 1 3 2)4(4 5 7 6))"},
+    {'O', "constant/polyMesh/owner", "FoamFile{class labelList;}6{0}"},
+    {'N', "constant/polyMesh/neighbour", "FoamFile{class labelList;}0()"},
+    {'A', "processor0/constant/polyMesh/cellProcAddressing", "FoamFile{class labelList;}1(0)"},
+    {'D', "processor0/2/T", "FoamFile{class volScalarField;}dimensions [0 0 0 1 0 0 0];internalField uniform 293;"},
+    {'C', "system/controlDict", ""},
+};
+
+bool isFoam(char kind) {
+    for (const FoamPart& part : kFoam)
+        if (part.kind == kind) return true;
+    return false;
+}
+
+void writeFoam(const std::filesystem::path& folder, char kind, std::string_view bytes) {
+    for (const FoamPart& part : kFoam) {
+        std::filesystem::create_directories((folder / part.file).parent_path());
+        write(folder / part.file, kind == part.kind ? bytes : std::string_view(part.text));
+    }
 }
 
 }  // namespace
@@ -53,6 +86,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         name = kind == 'j' ? "x.json" : kind == 'v' ? "x.vti" : "x.nrrd";
         if (kind == 'j') options.at.reset();
         write(folder / name, bytes);
+    }
+    if (isFoam(kind)) {
+        name = "case";
+        writeFoam(folder / name, kind, bytes);
     }
     svt::Diagnostics diagnostics;
     const auto fields = svt::field_readers::readFields(folder / name, kVolume, options, diagnostics);

@@ -115,7 +115,10 @@ Result<int> runConvert(const ConvertArguments& arguments) {
     options.progress = progress.get();
     if (format != nullptr && format->name == "tileset" && !volume->crsName.empty())
         setLift(volume->crsName, volume->grid.origin(), options.tileset);
+    Diagnostics notes;
+    options.diagnostics = &notes;
     SVT_DO(writers::writeVolume(*volume, arguments.output, options));
+    for (const Diagnostic& item : notes.items()) note(item.message);
     if (hasSurfaces && !options.tileset.hasVoxels) noteSurfaces(*volume, options, format->name == "tileset");
     return kDone;
 }

@@ -171,7 +171,7 @@ Members<FieldAddArguments> membersOf(const FieldAddArguments*) noexcept {
         member<&All::file>(
             "file",
             "the file with values: .smv of FDS, .csv of sensors, .json of OGC SensorThings, .vti, .vtr or "
-            ".pvd of VTK, .nrrd",
+            ".pvd of VTK, .nrrd, a folder of OpenFOAM",
             {.value = "FILE", .isRequired = true, .file = FileUse::OtherInput}),
         member<&All::output>("-o,--output", "the .svt to write",
                              {.value = "F.svt",

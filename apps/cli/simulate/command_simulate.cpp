@@ -31,25 +31,12 @@ struct HeatArguments {
     pipeline::BuildOptions build;
 };
 
-// "QUERY:C"; the query may contain colons.
-Result<simulate::RoomTemperature> parseInside(const std::string& text) {
-    const std::size_t colon = text.rfind(':');
-    const auto celsius = colon == std::string::npos
-                             ? std::nullopt
-                             : parseNumber(withoutBlanks(std::string_view(text).substr(colon + 1)));
-    if (!celsius || colon == 0)
-        return Error(Code::BadArgument,
-                     fmt::format("--inside: '{}' is not QUERY:CELSIUS, such as 'name=Bath:24'", text));
-    return simulate::RoomTemperature{text.substr(0, colon), *celsius};
-}
-
 Result<simulate::HeatOptions> optionsOf(const HeatArguments& arguments) {
     simulate::HeatOptions options;
     options.outside = arguments.outside;
     for (const std::string& text : arguments.inside) {
-        SVT_TRY(rule, parseInside(text));
-        SVT_DO(model::Query::parse(rule->query));
-        options.inside.push_back(std::move(*rule));
+        SVT_TRY(rule, model::parseQueryValue(text, "QUERY:CELSIUS of --inside, such as 'name=Bath:24'"));
+        options.inside.push_back({std::move(rule->query), rule->value});
     }
     if (!arguments.materials.empty()) {
         SVT_TRY(bytes, FileBytes::read(arguments.materials));

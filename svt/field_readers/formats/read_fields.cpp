@@ -5,6 +5,7 @@
 #include <svt/field_readers/common/placement.hpp>
 #include <svt/field_readers/common/reading.hpp>
 #include <svt/field_readers/fds/read_fds.hpp>
+#include <svt/field_readers/foam/read_foam.hpp>
 #include <svt/field_readers/lattices/read_lattices.hpp>
 #include <svt/field_readers/sensors/sensor_series.hpp>
 #include <svt/fields/check_field.hpp>
@@ -24,7 +25,7 @@ struct FieldFormat {
 };
 
 constexpr std::string_view kKnownFormats =
-    ".smv of FDS, .csv of sensors, .json of OGC SensorThings, .vti, .vtr, .pvd of VTK, .nrrd";
+    ".smv of FDS, .csv of sensors, .json of OGC SensorThings, .vti, .vtr, .pvd of VTK, .nrrd, folders of OpenFOAM";
 
 constexpr FieldFormat kFormats[] = {{".smv", "TITLE", readFds},
                                     {".csv", "", readSensorTable, true},
@@ -34,7 +35,13 @@ constexpr FieldFormat kFormats[] = {{".smv", "TITLE", readFds},
                                     {".pvd", "<VTKFile type=\"Collection\"", readVtkSeries},
                                     {".nrrd", "NRRD000", readNrrdField}};
 
+// A case is a folder, or a file within the folder.
+constexpr FieldFormat kFoam{".foam", "", readFoam};
+
 Result<const FieldFormat*> formatOf(const std::filesystem::path& path) {
+    std::error_code failed;
+    const bool isFolder = std::filesystem::is_directory(path, failed);
+    if (isFolder || foamFolder(path)) return &kFoam;
     SVT_TRY(file, PartFile::open(path));
     const std::string ending = lowerAscii(path.extension().string());
     for (const FieldFormat& format : kFormats)

@@ -70,11 +70,12 @@ void appendSamples(std::string_view bytes, const SampleType& type, std::vector<d
 
 Result<fields::Field> fieldOfArray(LatticeArray array, const Reading& reading, Assumptions assumptions) {
     if (reading.options.at) {
-        array.frame.origin = array.frame.origin + *reading.options.at;
+        array.frame.origin = (array.place.empty() ? array.frame.origin : Vec3d{}) + *reading.options.at;
         assumptions.add("place", fmt::format("origin of the file's coordinates at ({}, {}, {}), given",
                                              reading.options.at->x, reading.options.at->y, reading.options.at->z));
     } else {
-        assumptions.add("place", "coordinates of the file taken as world coordinates");
+        assumptions.add("place",
+                        array.place.empty() ? "coordinates of the file taken as world coordinates" : array.place);
     }
     fields::Field field;
     fields::FieldHead& head = field.head;

@@ -4,6 +4,8 @@
 #include <svt/model/classes.hpp>
 #include <svt/model/query/query_node.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -292,6 +294,15 @@ std::vector<std::uint32_t> Query::select(std::span<const QueryRow> rows) const {
     for (std::size_t i = 0; i < mask.size(); ++i)
         if (mask[i]) selected.push_back(static_cast<std::uint32_t>(i));
     return selected;
+}
+
+Result<QueryValue> parseQueryValue(std::string_view text, std::string_view form) {
+    const std::size_t colon = text.rfind(':');
+    const auto value =
+        colon == std::string_view::npos ? std::nullopt : parseNumber(withoutBlanks(text.substr(colon + 1)));
+    if (!value || colon == 0) return Error(Code::BadArgument, fmt::format("'{}' is not {}", text, form));
+    SVT_DO(Query::parse(text.substr(0, colon)));
+    return QueryValue{std::string(text.substr(0, colon)), *value};
 }
 
 }  // namespace svt::model

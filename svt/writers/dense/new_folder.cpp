@@ -47,10 +47,15 @@ Result<void> NewFolder::create() {
 }
 
 Result<void> NewFolder::write(const std::string& name, std::string_view text) {
-    const fs::path file = folder_ / name;
+    makeFolders((folder_ / name).parent_path());
+    return put(name, text, false);
+}
+
+Result<void> NewFolder::append(const std::string& name, std::string_view text) { return put(name, text, true); }
+
+Result<void> NewFolder::put(const std::string& name, std::string_view text, bool isAdded) {
     std::error_code failed;
-    makeFolders(file.parent_path());
-    std::ofstream stream(file, std::ios::binary);
+    std::ofstream stream(folder_ / name, isAdded ? std::ios::binary | std::ios::app : std::ios::binary);
     stream.write(text.data(), static_cast<std::streamsize>(text.size()));
     stream.close();
     if (stream) {

@@ -25,10 +25,13 @@ public:
     [[nodiscard]] Result<void> create();
     /// Writes a file; `name` may contain folders, with '/'. \return success, or DiskFull, CannotWrite
     [[nodiscard]] Result<void> write(const std::string& name, std::string_view text);
+    /// Adds to the end of a file of this folder. Errors as write().
+    [[nodiscard]] Result<void> append(const std::string& name, std::string_view text);
     /// \return bytes of all files, or CannotWrite
     [[nodiscard]] Result<std::uint64_t> commit();
 
 private:
+    [[nodiscard]] Result<void> put(const std::string& name, std::string_view text, bool isAdded);
     [[nodiscard]] Error at(Code code, std::string message) const;
 
     std::filesystem::path place_, folder_;

@@ -12,7 +12,7 @@ namespace svt::writers {
 // Each is declared beside its writer.
 extern const VolumeFormat kNrrd, kGlb, kSegmentationNrrd, kVti, kVtm, kNifti, kNiftiGzip, kTiff, kOmeTiff, kZarr,
     kPrecomputed, kVdb, kVox, kX3d, kAde, kObj, kPly, kStl, kUsd, kTileset, kObjects, kContacts, kObjectParquet,
-    kContactParquet, kFds, kBoxTable, kBoxJson, kAdjacency, kGraphMl, kIndoorGml;
+    kContactParquet, kFds, kFoam, kBoxTable, kBoxJson, kAdjacency, kGraphMl, kIndoorGml;
 
 std::span<const VolumeFormat> volumeFormats() noexcept {
     static const VolumeFormat kAll[] = {kNrrd,      kGlb,           kSegmentationNrrd,
@@ -23,8 +23,9 @@ std::span<const VolumeFormat> volumeFormats() noexcept {
                                         kObj,       kPly,           kStl,
                                         kUsd,       kTileset,       kObjects,
                                         kContacts,  kObjectParquet, kContactParquet,
-                                        kFds,       kBoxTable,      kBoxJson,
-                                        kAdjacency, kGraphMl,       kIndoorGml};
+                                        kFds,       kFoam,          kBoxTable,
+                                        kBoxJson,   kAdjacency,     kGraphMl,
+                                        kIndoorGml};
     return kAll;
 }
 
@@ -50,7 +51,7 @@ Result<std::uint64_t> writeVolume(const volume::SemanticVolume& volume, const st
         return Error(Code::BadArgument, fmt::format("'{}' ends as none of the formats that a volume can be written in",
                                                     path.filename().string()));
     // A faulty query is an error whatever the format, even one that does not use it.
-    for (const std::string* query : {&options.boxes.holes, &options.boxes.vents})
+    for (const std::string* query : {&options.boxes.holes, &options.boxes.vents, &options.foam.air})
         if (!query->empty()) SVT_DO(analyze::selectLabels(volume, *query));
     return format->write(volume, path, options);
 }

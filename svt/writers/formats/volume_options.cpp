@@ -42,9 +42,11 @@ record::Members<VolumeWriteOptions> membersOf(const VolumeWriteOptions*) noexcep
         member<&All::tileset>("tileset", "3D Tiles"),
         member<&All::vdb>("vdb", "OpenVDB"),
         member<&All::maxVoxels>("maxVoxels",
-                                "maximum number of samples as numbers in a document, or of voxels in a .vox",
+                                "maximum number of samples as numbers in a document, of voxels in a .vox, or of "
+                                "cells in a .foam",
                                 {.least = 1, .most = 1e12, .group = "Output", .option = "--max-voxels"}),
         member<&All::boxes>("boxes", "FDS and lists of boxes"),
+        member<&All::foam>("foam", "OpenFOAM"),
         member<&All::faces>("faces",
                             "slopes of a .glb: planes (flat, where the volume stores planes) or voxels (stairs)",
                             {.group = "Output", .option = "--faces", .isForProjects = true}),

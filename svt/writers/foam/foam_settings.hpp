@@ -1,0 +1,22 @@
+#pragma once
+/// \file
+/// Those files of an OpenFOAM case that are the same for every volume.
+
+#include <span>
+#include <string_view>
+
+namespace svt::writers {
+
+/// A dictionary, without its header.
+struct FoamSetting {
+    std::string_view file, className, text;
+};
+[[nodiscard]] std::span<const FoamSetting> foamSettings() noexcept;
+
+/// A script or another text.
+struct FoamText {
+    std::string_view file, text;
+};
+[[nodiscard]] std::span<const FoamText> foamTexts() noexcept;
+
+}  // namespace svt::writers
