@@ -28,6 +28,7 @@ enum class FileUse : std::uint8_t {
     ModelOrVolume,  ///< a model or a `.svt` is read
     Style,          ///< a style is read, with the files that it names
     OtherInput,     ///< any other file is read
+    InputOrFolder,  ///< any other file, or a folder, is read
     InputFolder,    ///< a folder whose files are read
     Output,         ///< a file is written
     OutputFolder    ///< files are written into a folder

@@ -462,13 +462,15 @@ TEST(Formats, AreListedWithEndingsAndCommands) {
 }
 
 TEST_F(Convert, EveryFormatIsWrittenAndTheSameForAnyThreads) {
-    // Boxes have no rooms, of which IndoorGML is made.
+    // Boxes have no rooms, of which IndoorGML and cases of OpenFOAM are made.
     prepareHouse(folder.path(), "0.4");
     for (const writers::VolumeFormat& format : writers::volumeFormats()) {
-        const std::string input = format.name == "indoorgml" ? "house.svt" : "boxes.svt";
+        const bool isOfRooms = format.name == "indoorgml" || format.name == "foam";
+        const std::string input = isOfRooms ? "house.svt" : "boxes.svt";
         const std::string ending(format.endings.substr(0, format.endings.find('|')));
-        runSvtWell(folder.path(), {"convert", input, "one" + ending, "--threads", "1"});
-        runSvtWell(folder.path(), {"convert", input, "two" + ending, "--threads", "3"});
+        const std::string air = format.name == "foam" ? "name=Kitchen" : "all";
+        runSvtWell(folder.path(), {"convert", input, "one" + ending, "--threads", "1", "--air", air});
+        runSvtWell(folder.path(), {"convert", input, "two" + ending, "--threads", "3", "--air", air});
         if (fs::is_directory(folder / ("one" + ending))) {
             for (const auto& file : fs::recursive_directory_iterator(folder / ("one" + ending))) {
                 if (!file.is_regular_file()) continue;

@@ -38,7 +38,8 @@ std::string_view fileText(FileUse use) noexcept {
         case FileUse::Model:
         case FileUse::ModelOrVolume:
         case FileUse::Style:
-        case FileUse::OtherInput: return "input";
+        case FileUse::OtherInput:
+        case FileUse::InputOrFolder: return "input";
         case FileUse::InputFolder: return "inputFolder";
         case FileUse::Output: return "output";
         case FileUse::OutputFolder: return "outputFolder";

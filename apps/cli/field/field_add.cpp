@@ -172,7 +172,7 @@ Members<FieldAddArguments> membersOf(const FieldAddArguments*) noexcept {
             "file",
             "the file with values: .smv of FDS, .csv of sensors, .json of OGC SensorThings, .vti, .vtr or "
             ".pvd of VTK, .nrrd, a folder of OpenFOAM",
-            {.value = "FILE", .isRequired = true, .file = FileUse::OtherInput}),
+            {.value = "FILE", .isRequired = true, .file = FileUse::InputOrFolder}),
         member<&All::output>("-o,--output", "the .svt to write",
                              {.value = "F.svt",
                               .otherwise = "the volume itself, which is replaced after all is written",

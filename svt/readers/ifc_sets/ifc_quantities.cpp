@@ -164,9 +164,10 @@ private:
         const step::Record& product = step_.records()[found->second];
         const QuantitySet* set = setOfType(step_.typeName(product));
         std::vector<const IfcQuantity*> chosen;
-        for (const IfcQuantity& quantity : element.quantities)
-            if (set != nullptr && hasWord(set->quantities, quantity.name)) chosen.push_back(&quantity);
-        if (chosen.empty()) {
+        if (set != nullptr)
+            for (const IfcQuantity& quantity : element.quantities)
+                if (hasWord(set->quantities, quantity.name)) chosen.push_back(&quantity);
+        if (set == nullptr || chosen.empty()) {
             ++result_.otherTypes;
             return;
         }

@@ -66,15 +66,17 @@ relaxationFactors
 }
 )foam"},
     {"system/decomposeParDict", "dictionary", R"foam(numberOfSubdomains 2;
-method scotch;
+// Slices along x; Debian's OpenFOAM has no other method for any number of processes.
+method simple;
+coeffs { n (2 1 1); }
 )foam"},
 };
 
 constexpr FoamText kTexts[] = {
     // ParaView opens the case by it.
     {"case.foam", ""},
-    {"run.sh", R"foam(#!/bin/sh
-# Runs the case: sh run.sh [PROCESSES]. More than one process needs MPI.
+    {"Allrun", R"foam(#!/bin/sh
+# Runs the case: sh Allrun [PROCESSES]. More than one process needs MPI.
 # Exit code: 2 if the residuals of system/fvSolution are not reached; the last iteration is kept.
 set -e
 cd "$(dirname "$0")"
@@ -84,27 +86,28 @@ if [ "$processes" -le 1 ]; then
     buoyantBoussinesqSimpleFoam >log.solver
 else
     foamDictionary -entry numberOfSubdomains -set "$processes" system/decomposeParDict
+    foamDictionary -entry coeffs/n -set "($processes 1 1)" system/decomposeParDict
     decomposePar -force >log.decompose
     ${MPIRUN:-mpirun -np "$processes"} buoyantBoussinesqSimpleFoam -parallel >log.solver
     reconstructPar -latestTime >log.reconstruct
 fi
 if ! grep "solution converged" log.solver; then
-    echo "run.sh: the residuals are not reached. Raise endTime in system/controlDict and run again. Air over warm" \
+    echo "Allrun: the residuals are not reached. Raise endTime in system/controlDict and run again. Air over warm" \
         "floors may stay unsteady: buoyantBoussinesqPimpleFoam computes that." >&2
     exit 2
 fi
 )foam"},
-    {"run.slurm", R"foam(#!/bin/sh
+    {"Allrun.slurm", R"foam(#!/bin/sh
 #SBATCH --job-name=foam
 #SBATCH --nodes=1
 #SBATCH --ntasks=2
-# Runs the case as a job: sbatch run.slurm; --ntasks is the number of processes.
-cd "$SLURM_SUBMIT_DIR" && sh run.sh "$SLURM_NTASKS"
+# Runs the case as a job: sbatch Allrun.slurm; --ntasks is the number of processes.
+cd "$SLURM_SUBMIT_DIR" && sh Allrun "$SLURM_NTASKS"
 )foam"},
     {"README.md", R"foam(# Air of rooms
 
-A case for OpenFOAM (openfoam.com, v1912 and later). `sh run.sh` computes it, `sh run.sh 4` with four processes,
-`sbatch run.slurm` as a job of Slurm. ParaView opens `case.foam`. `svt field add VOLUME.svt FOLDER.foam` reads the
+A case for OpenFOAM (openfoam.com, v1912 and later). `sh Allrun` computes it, `sh Allrun 4` with four processes,
+`sbatch Allrun.slurm` as a job of Slurm. ParaView opens `case.foam`. `svt field add VOLUME.svt FOLDER.foam` reads the
 results into the volume.
 
 Assumptions:
