@@ -1,5 +1,7 @@
+#include <svt/analyze/scalar_boxes.hpp>
 #include <svt/drawing/field_drawing.hpp>
 #include <svt/fields/node_field_test.hpp>
+#include <svt/pipeline/sample_models_test.hpp>
 
 #include <svt/volume/sample_volume_test.hpp>
 
@@ -303,6 +305,42 @@ TEST(FieldDrawing, ThinWallsWithinOneRegionKeepTheirSidesApart) {
         for (const PlanePoint p : line.points)
             EXPECT_GT(p.v, 1.9) << "a line lies beside the wall, where all values are equal";
     EXPECT_LT(lengthInside(made.isolines, plan, {0}), 1e-3);
+}
+
+// The kitchen of the sample house has values, and the living room beside it has none. A wall of 12 cm in voxels of 20 cm is
+// between them, with a passage.
+TEST(FieldDrawing, NoValueCrossesAWallThinnerThanAVoxel) {
+    const SemanticVolume volume =
+        svt::test::volumeOfSample(samples::SampleKind::House, samples::SampleFormat::CityGml3, 0.2);
+    const auto labelOf = [&](std::string_view id) {
+        for (std::uint32_t l = 0; l < volume.labels.labels.size(); ++l)
+            if (volume.labels.labels[l].id == id) return l;
+        return volume::kNoLabel;
+    };
+    const std::uint32_t kitchen = labelOf("house_kitchen"), wall = labelOf("house_wall_kitchen");
+    ASSERT_TRUE(kitchen != volume::kNoLabel && wall != volume::kNoLabel);
+    fields::Field field;
+    field.head.name = "temperature";
+    field.head.unit = "Cel";
+    field.head.medium = "air";
+    const auto box = analyze::labelBoxes(volume.columns, volume.labels)[kitchen];
+    field.head.lattice.first = toDouble(box.min);
+    field.head.lattice.size = box.max - box.min + Vec3i{1, 1, 1};
+    field.head.lattice.step = {1, 1, 1};
+    const Vec3i size = field.head.lattice.size;
+    field.values.assign(std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z), 21.0f);
+    const SectionDrawing plan = planOf(volume, "z=1.5");
+    double least = kInfinity, face = kInfinity;
+    for (const SectionComponent& component : plan.components)
+        if (component.label == wall)
+            for (const SectionPolygon& polygon : component.polygons)
+                for (const PlanePoint p : polygon.outer) face = std::min(face, p.u);
+    const FieldDrawing made = drawn(plan, volume, field, {.isolines = 1});
+    ASSERT_EQ(made.bands.size(), 1u);
+    for (const SectionPolygon& polygon : made.bands[0].polygons)
+        for (const PlanePoint p : polygon.outer) least = std::min(least, p.u);
+    EXPECT_GE(least, face - 1e-3) << "the band ends at the wall's other face";
+    EXPECT_NEAR(areaOf(made.bands[0].polygons), 14.07, 0.05) << "and fills the kitchen around its furniture";
 }
 
 TEST(FieldDrawing, SensorsColourTheirRooms) {

@@ -12,7 +12,9 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kFewNodes = 16;  // regions with fewer get a finer grid
 constexpr double kFinest = 8;
-constexpr int kContinuedNodes = 3;  // by which values are continued
+constexpr int kContinuedNodes = 3;      // by which values are continued, at least
+constexpr double kContinuedVoxels = 2;  // the same inside of the outline
+constexpr int kMostContinued = 64;      // nodes
 
 // Cuts an edge at u or v; the same point for both directions of the edge.
 PlanePoint cutAt(PlanePoint a, PlanePoint b, double sideA, double sideB) noexcept {
@@ -83,6 +85,7 @@ std::size_t RegionGrid::fill(double refine) {
     us_ = std::move(lines.us);
     vs_ = std::move(lines.vs);
     findNodes();
+    findWalls();
     parallelFor(vs_.size(), 8, source_.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t j = begin; j < end; ++j) sampleRow(j);
     });
@@ -139,27 +142,71 @@ void RegionGrid::sampleRow(std::size_t j) {
     }
 }
 
-// Whether a node outside has values on both sides of it, along u or v.
+// Finds the steps between nodes that cross the outline.
+void RegionGrid::findWalls() {
+    walls_.assign(inside_.size(), 0);
+    // Marks the crossings of an edge with the lines of nodes at `lines`; `across` are the nodes along these lines.
+    const auto mark = [this](const std::vector<double>& lines, const std::vector<double>& across, double lineA,
+                             double lineB, double acrossA, double acrossB, std::size_t lineStep, std::size_t acrossStep,
+                             std::uint8_t bit) {
+        const double low = std::min(lineA, lineB), high = std::max(lineA, lineB);
+        auto l = static_cast<std::size_t>(std::lower_bound(lines.begin(), lines.end(), low) - lines.begin());
+        for (; l < lines.size() && lines[l] <= high; ++l) {
+            if ((lineA > lines[l]) == (lineB > lines[l])) continue;
+            const double at = acrossA + (lines[l] - lineA) / (lineB - lineA) * (acrossB - acrossA);
+            const auto above = std::upper_bound(across.begin(), across.end(), at);
+            if (above == across.begin() || above == across.end()) continue;
+            const auto before = static_cast<std::size_t>(above - across.begin()) - 1;
+            walls_[l * lineStep + before * acrossStep] |= bit;
+        }
+    };
+    for (const auto& [a, b] : edges_) {
+        mark(vs_, us_, a.v, b.v, a.u, b.u, us_.size(), 1, 1);
+        mark(us_, vs_, a.u, b.u, a.v, b.v, 1, us_.size(), 2);
+    }
+}
+
+// Whether a wall between a node with a value and another node inside has less than two nodes of its own.
 bool RegionGrid::hasThinWall() const noexcept {
     const std::size_t width = us_.size();
+    const auto isKnown = [&](std::size_t n) { return nodes_[n] == Node::Known; };
+    const auto isInWall = [&](std::size_t n) { return inside_[n] != 0 && nodes_[n] == Node::Beyond; };
     for (std::size_t j = 1; j + 1 < vs_.size(); ++j)
         for (std::size_t i = 1; i + 1 < width; ++i) {
             const std::size_t n = node(i, j);
-            if (nodes_[n] != Node::Beyond) continue;
-            for (const std::size_t step : {std::size_t{1}, width})
-                if (nodes_[n - step] == Node::Known && nodes_[n + step] == Node::Known) return true;
+            for (const auto& [step, bit] : {std::pair(std::size_t{1}, 1), std::pair(width, 2)}) {
+                const std::size_t before = n - step, after = n + step;
+                const bool isBetween = inside_[n] == 0 && inside_[before] != 0 && inside_[after] != 0;
+                if (isBetween && (isKnown(before) || isKnown(after))) return true;
+                const bool isCrossed = (walls_[n] & bit) != 0;
+                if (isCrossed && ((isKnown(n) && isInWall(after)) || (isInWall(n) && isKnown(after)))) return true;
+            }
         }
     return false;
 }
 
+// Whether the outline passes between a node and its neighbour; diagonally, if it passes on both ways around.
+bool RegionGrid::isWallAhead(std::ptrdiff_t i, std::ptrdiff_t j, int du, int dv) const noexcept {
+    const auto width = static_cast<std::ptrdiff_t>(us_.size());
+    const auto alongU = [&](std::ptrdiff_t row) {
+        return du != 0 && (walls_[static_cast<std::size_t>(std::min(i, i + du) + row * width)] & 1) != 0;
+    };
+    const auto alongV = [&](std::ptrdiff_t column) {
+        return dv != 0 && (walls_[static_cast<std::size_t>(column + std::min(j, j + dv) * width)] & 2) != 0;
+    };
+    return (alongU(j) || alongV(i + du)) && (alongV(i) || alongU(j + dv));
+}
+
 // The value of a node from its neighbours along the eight directions: linear where a direction has two known nodes, else their
-// mean; kNone without known neighbours.
-double RegionGrid::continuedValue(std::ptrdiff_t i, std::ptrdiff_t j) const noexcept {
+// mean; kNone without known neighbours. No value crosses a wall to a node inside.
+double RegionGrid::continuedValue(std::ptrdiff_t i, std::ptrdiff_t j, bool isInside) const noexcept {
     const auto width = static_cast<std::ptrdiff_t>(us_.size()), height = static_cast<std::ptrdiff_t>(vs_.size());
-    const auto at = [&](std::ptrdiff_t di, std::ptrdiff_t dj) -> double {
-        const std::ptrdiff_t x = i + di, y = j + dj;
-        if (x < 0 || y < 0 || x >= width || y >= height) return kNone;
-        return values_[static_cast<std::size_t>(x + y * width)];
+    // The value of a neighbour, if the step to it crosses no wall.
+    const auto at = [&](std::ptrdiff_t x, std::ptrdiff_t y, int du, int dv, bool isSameSide) -> double {
+        const std::ptrdiff_t toX = x + du, toY = y + dv;
+        if (toX < 0 || toY < 0 || toX >= width || toY >= height) return kNone;
+        if (isSameSide && isWallAhead(x, y, du, dv)) return kNone;
+        return values_[static_cast<std::size_t>(toX + toY * width)];
     };
     // Distance to the next node, divided by the distance between the next two.
     const auto gap = [](const std::vector<double>& lines, std::ptrdiff_t k, int sign) {
@@ -170,10 +217,14 @@ double RegionGrid::continuedValue(std::ptrdiff_t i, std::ptrdiff_t j) const noex
     int linears = 0, constants = 0;
     for (int d = 0; d < 9; ++d) {
         const int du = d % 3 - 1, dv = d / 3 - 1;
-        const double near = at(du, dv), far = at(2 * du, 2 * dv);
-        if ((du == 0 && dv == 0) || std::isnan(near)) continue;
+        if (du == 0 && dv == 0) continue;
+        const double near = at(i, j, du, dv, isInside);
+        if (std::isnan(near)) continue;
         constant += near;
         ++constants;
+        const bool isNearInside =
+            inside_[node(static_cast<std::size_t>(i + du), static_cast<std::size_t>(j + dv))] != 0;
+        const double far = at(i + du, j + dv, du, dv, isNearInside);
         if (std::isnan(far)) continue;
         // The steps along u and v may differ on a rectilinear lattice; then only the axes are linear.
         const double ratioU = du != 0 ? gap(us_, i, du) : gap(vs_, j, dv);
@@ -186,20 +237,33 @@ double RegionGrid::continuedValue(std::ptrdiff_t i, std::ptrdiff_t j) const noex
     return constants > 0 ? constant / constants : kNone;
 }
 
-// Continues the values to nodes beyond the region and in the voxels of its walls.
-void RegionGrid::extend() {
+// Continues values to the nodes beyond the region's own voxels that lie inside or outside of its outline.
+void RegionGrid::extendNodes(bool areInside, int steps) {
     const auto width = static_cast<std::ptrdiff_t>(us_.size()), height = static_cast<std::ptrdiff_t>(vs_.size());
-    for (int step = 0; step < kContinuedNodes; ++step) {
+    for (int step = 0; step < steps; ++step) {
         std::vector<std::pair<std::size_t, double>> found;
         for (std::ptrdiff_t j = 0; j < height; ++j)
             for (std::ptrdiff_t i = 0; i < width; ++i) {
                 const auto own = static_cast<std::size_t>(i + j * width);
-                if (nodes_[own] != Node::Beyond || !std::isnan(values_[own])) continue;
-                const double value = continuedValue(i, j);
+                const bool isWanted = (inside_[own] != 0) == areInside;
+                if (!isWanted || nodes_[own] != Node::Beyond || !std::isnan(values_[own])) continue;
+                const double value = continuedValue(i, j, areInside);
                 if (!std::isnan(value)) found.emplace_back(own, value);
             }
+        if (found.empty()) return;
         for (const auto& [n, value] : found) values_[n] = value;
     }
+}
+
+// Nodes inside come first, so that each side of a wall has its own values when both meet in the wall.
+void RegionGrid::extend() {
+    double gap = kInfinity;
+    for (const std::vector<double>* lines : {&us_, &vs_})
+        for (std::size_t n = 0; n + 1 < lines->size(); ++n) gap = std::min(gap, (*lines)[n + 1] - (*lines)[n]);
+    const Vec3d spacing = source_.volume.grid.spacing();
+    const double voxels = std::ceil(kContinuedVoxels * std::max({spacing.x, spacing.y, spacing.z}) / gap);
+    extendNodes(true, std::clamp(static_cast<int>(std::min(voxels, 1e3)), kContinuedNodes, kMostContinued));
+    extendNodes(false, kContinuedNodes);
 }
 
 void RegionGrid::findPlaces() {

@@ -3,11 +3,12 @@
 /// The values of a field at the nodes of a grid over one region of a section.
 ///
 ///     . node outside of the region, continued linearly      o node with a sampled value      | wall
+///     x node inside of the region, but in a voxel of its walls: continued as well, and only from its side of the wall
 ///
 ///     .   .   .   .   .   .
 ///       +-------------+
-///     . | o   o   o   | . .
-///     . | o   o   o   | . .
+///     . | o   o   x   | . .
+///     . | o   o   x   | . .
 ///       +-------------+
 
 #include <svt/drawing/field/field_regions.hpp>
@@ -75,9 +76,12 @@ private:
     [[nodiscard]] bool meetsEmptySpace() const noexcept;
     void findNodes();
     void sampleRow(std::size_t j);
+    void findWalls();
     [[nodiscard]] bool hasThinWall() const noexcept;
-    [[nodiscard]] double continuedValue(std::ptrdiff_t i, std::ptrdiff_t j) const noexcept;
+    [[nodiscard]] bool isWallAhead(std::ptrdiff_t i, std::ptrdiff_t j, int du, int dv) const noexcept;
+    [[nodiscard]] double continuedValue(std::ptrdiff_t i, std::ptrdiff_t j, bool isInside) const noexcept;
     void extend();
+    void extendNodes(bool areInside, int steps);
     void findPlaces();
     [[nodiscard]] std::span<const std::uint32_t> edgesOf(std::size_t row) const noexcept {
         return {rowEdges_.data() + rowStarts_[row], rowStarts_[row + 1] - rowStarts_[row]};
@@ -88,12 +92,13 @@ private:
     const FieldRegion& region_;
     const FieldSource& source_;
     std::vector<std::pair<PlanePoint, PlanePoint>> edges_;
-    std::vector<double> us_, vs_;          // of the nodes, ascending
-    std::vector<std::uint8_t> inside_;     // by node
-    std::vector<Node> nodes_;              // by node
-    std::vector<double> values_;           // by node; NaN: none
-    std::vector<Place> places_;            // by cell
-    bool hasEmptySpace_ = false;           // whether the region has nodes in empty space
+    std::vector<double> us_, vs_;       // of the nodes, ascending
+    std::vector<std::uint8_t> inside_;  // by node
+    std::vector<std::uint8_t> walls_;   // by node: whether the outline passes before the next node along u (1), v (2)
+    std::vector<Node> nodes_;           // by node
+    std::vector<double> values_;        // by node; NaN: none
+    std::vector<Place> places_;         // by cell
+    bool hasEmptySpace_ = false;        // whether the region has nodes in empty space
     std::vector<std::uint32_t> rowEdges_;  // edges that meet the row of cells, row by row
     std::vector<std::size_t> rowStarts_;
     mutable std::size_t clippedRow_ = ~std::size_t{0};
