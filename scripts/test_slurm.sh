@@ -152,6 +152,19 @@ drained 90
 same merged "a merge killed midway is run again"
 same late "also one that Slurm ran"
 
+if command -v buoyantBoussinesqPimpleFoam >/dev/null; then
+  "$svt" sample house -o house.gml -q
+  "$svt" build house.gml -o house.svt --spacing 0.2 -q
+  "$svt" convert house.svt room.foam --air name=Kitchen --surface-temperature 'class~Window:12' -q
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  (cd room.foam && sbatch --wait --overcommit Allrun.slurm) >said 2>&1 || fail "the air of a room: $(cat said room.foam/slurm-*.out)"
+  [ -d room.foam/processor1 ] || fail "the air of a room is not computed by two processes"
+  "$svt" field add house.svt room.foam --quantity T -q || fail "the results of OpenFOAM are not read"
+  echo "slurm: OpenFOAM computes the air of a room with two processes"
+else
+  echo "slurm: OpenFOAM is missing (scripts/setup.sh readers), so no air of a room is computed"
+fi
+
 if [ "${2:-}" = long ]; then
   # Tasks of some seconds, so that one is at work when its node goes.
   for town in lost-local lost; do "$svt" city plan files -o $town --pack-seconds 4 --tasks 2 --spacing 0.1 -q; done

@@ -64,7 +64,6 @@ public:
             reading_.note(
                 "the mesh does not state its place, so its coordinates count as world coordinates; give the "
                 "place of their origin with --at X,Y,Z");
-        SVT_DO(checkConvergence());
         std::vector<fields::Field> fields;
         for (const auto& [name, className] : *names) {
             SVT_TRY(field, readField(name, className == "volVectorField" ? 3 : 1));
@@ -93,20 +92,6 @@ private:
                     return badField(fmt::format("cell {} is not one of the {} cells of the case", cell, count), file);
             parts_.push_back({part, std::move(*cells)});
         }
-    }
-
-    // The log of the script that `svt convert` writes says whether the solver reached its residuals.
-    Result<void> checkConvergence() {
-        const fs::path log = folder_ / "log.solver";
-        std::error_code failed;
-        if (!fs::exists(log, failed)) return {};
-        SVT_TRY(bytes, FileBytes::read(log, reading_.options.maxBytes));
-        isConverged_ = bytes->text().find("solution converged") != std::string_view::npos;
-        if (!isConverged_)
-            reading_.warn(Code::FieldInPart,
-                          "the solver did not reach its residuals, so the values are those of an unfinished iteration",
-                          log.string());
-        return {};
     }
 
     [[nodiscard]] bool hasCollated() const {
@@ -217,7 +202,6 @@ private:
                 SVT_DO(readValues(*source, folder / name, std::span(array.values).subspan(s * each, each), array));
         Assumptions assumptions;
         assumptions.add("places", "centres of cells");
-        if (!isConverged_) assumptions.add("convergence", "the solver did not reach its residuals");
         SVT_TRY(field, fieldOfArray(std::move(array), reading_, std::move(assumptions)));
         if (reading_.options.medium.empty()) field->head.medium = "air";
         return field;
@@ -254,7 +238,6 @@ private:
     Source whole_;
     std::vector<Source> parts_;
     std::vector<TimeStep> steps_;
-    bool isConverged_ = true;
 };
 
 }  // namespace

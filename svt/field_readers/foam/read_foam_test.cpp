@@ -219,16 +219,6 @@ TEST_F(ReadFoam, TheNoteOfTheMeshGivesThePlace) {
     EXPECT_NE(messageOf(other.folder, Code::FieldOutside).find("--at"), std::string::npos);
 }
 
-TEST_F(ReadFoam, ResultsOfAnUnfinishedIterationAreNamed) {
-    const FoamFolder foam(folder / "room");
-    foam.field("1", "T", "volScalarField", kKelvin, "uniform 290");
-    writeText(foam.folder / "log.solver", "Time = 1\n");
-    EXPECT_NE(only(foam.folder).head.parameters.find("did not reach its residuals"), std::string::npos);
-    EXPECT_EQ(diagnostics.count(Code::FieldInPart), 1u);
-    writeText(foam.folder / "log.solver", "SIMPLE solution converged in 7 iterations\n");
-    EXPECT_EQ(only(foam.folder).head.parameters.find("residuals"), std::string::npos);
-}
-
 TEST_F(ReadFoam, PackedFiles) {
     const FoamFolder foam(folder / "room");
     foam.field("1", "T", "volScalarField", kKelvin, "nonuniform List<scalar> 5(1 2 3 4 5)");

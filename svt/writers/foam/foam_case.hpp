@@ -11,7 +11,7 @@
 
 namespace svt::writers {
 
-/// Writes a folder for buoyantBoussinesqSimpleFoam (steady, k-epsilon). It holds the mesh of writeFoamMesh(), fields
+/// Writes a folder for buoyantBoussinesqPimpleFoam (k-epsilon). It holds the mesh of writeFoamMesh(), fields
 /// in `0`, schemes and tolerances in `system`, scripts for MPI and Slurm, and a table of the patches. README.md states
 /// all assumptions. The folder appears when all of it is written. An existing one is never replaced.
 ///
