@@ -245,9 +245,9 @@ Result<std::uint64_t> writeFields(const std::filesystem::path& input, const std:
     for (const std::string& name : removed) replaced.insert(name);
     SVT_TRY(merged, mergedFields(std::move(*before), made, removed));
     SVT_TRY(json, writeFieldsJson(*merged));
+    const std::string heads = std::move(*json);
     std::vector<NewEntry> entries;
-    if (!merged->empty())
-        entries.push_back({std::string(kFieldsJson), {std::as_bytes(std::span(json->data(), json->size()))}, true});
+    if (!merged->empty()) entries.push_back({std::string(kFieldsJson), {std::as_bytes(std::span(heads))}, true});
     for (const MadeField& one : made) addEntries(one, entries);
     const auto isKept = [&](std::string_view entry) {
         return entry != kFieldsJson && !replaced.contains(fieldOfEntry(entry));

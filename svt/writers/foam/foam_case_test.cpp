@@ -15,7 +15,6 @@
 namespace svt::writers {
 namespace {
 
-using volume::kNoLabel;
 using volume::SemanticVolume;
 
 constexpr Vec3d kSpacing{0.1, 0.2, 0.25};
