@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kFewNodes = 16;  // regions with fewer get a finer grid
-constexpr double kFinest = 8;
+constexpr double kRefinements[] = {1, 2, 4, 8};
 constexpr int kContinuedNodes = 3;      // by which values are continued, at least
 constexpr double kContinuedVoxels = 2;  // the same inside of the outline
 constexpr int kMostContinued = 64;      // nodes
@@ -59,7 +59,7 @@ RegionGrid::RegionGrid(const FieldRegion& region, const FieldSource& source) : r
         for (std::size_t n = 0; n < ring.size(); ++n) edges_.emplace_back(ring[n], ring[(n + 1) % ring.size()]);
     // Narrow regions may have few nodes: between the lattice's nodes, the sampler knows values as well.
     // Between both sides of a wall there must be two nodes, so that neither side takes values of the other.
-    for (double refine = 1; refine <= kFinest; refine *= 2)
+    for (const double refine : kRefinements)
         if (fill(refine) >= kFewNodes && !hasThinWall()) break;
     extend();
     findPlaces();
