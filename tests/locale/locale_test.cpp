@@ -223,6 +223,7 @@ private:
         writers::VolumeWriteOptions options;
         options.tileset.place = Vec3d{48.5, 11.25, 500.5};
         options.cityGml.model = folder_ / "house.gml";
+        options.foam = {.air = "name=Kitchen", .temperatures = {"class~Window:12.5"}};
         for (const writers::VolumeFormat& format : writers::volumeFormats()) {
             const fs::path path =
                 folder_ / ("volume" + std::string(format.endings.substr(0, format.endings.find('|'))));
