@@ -1,5 +1,7 @@
 #include <svt/field_readers/common/placement.hpp>
 
+#include <svt/core/text.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +29,44 @@ void setAxis(std::vector<double> index, int axis, fields::Lattice& lattice, bool
     lattice.positions[static_cast<std::size_t>(axis)] = std::move(index);
 }
 
+// Removes "(x, y, z)" from the front of a text.
+bool takeVector(std::string_view& text, Vec3d& to) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t begin = text.find_first_not_of(axis == 0 ? " (" : " ,");
+        if (begin == std::string_view::npos) return false;
+        text.remove_prefix(begin);
+        const auto number = takeNumber(text);
+        if (!number) return false;
+        to[axis] = *number;
+    }
+    if (!text.starts_with(')')) return false;
+    text.remove_prefix(1);
+    return true;
+}
+
+bool takeWord(std::string_view& text, std::string_view word) {
+    if (!text.starts_with(word)) return false;
+    text.remove_prefix(word.size());
+    return true;
+}
+
 }  // namespace
+
+std::optional<Frame> frameOfComment(std::string_view comment) {
+    constexpr std::string_view kMark = "Metres from ";
+    const std::size_t at = comment.find(kMark);
+    if (at == std::string_view::npos) return std::nullopt;
+    std::string_view text = comment.substr(at + kMark.size());
+    Frame frame;
+    if (!takeVector(text, frame.origin) || !takeWord(text, " along ") || !takeVector(text, frame.axes[0]) ||
+        !takeWord(text, " and ") || !takeVector(text, frame.axes[1]))
+        return std::nullopt;
+    const auto isUnit = [](Vec3d v) { return std::abs(length(v) - 1) < 1e-6; };
+    if (!isUnit(frame.axes[0]) || !isUnit(frame.axes[1]) || std::abs(dot(frame.axes[0], frame.axes[1])) > 1e-6)
+        return std::nullopt;
+    frame.axes[2] = cross(frame.axes[0], frame.axes[1]);
+    return frame;
+}
 
 Result<PlacedLattice> placeLattice(const NodePlaces& places, const Frame& frame, const volume::Grid& grid) {
     PlacedLattice placed;

@@ -9,7 +9,9 @@
 #include <svt/volume/grid.hpp>
 
 #include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace svt::field_readers {
@@ -19,6 +21,10 @@ struct Frame {
     Vec3d origin{};                                                             ///< world space, metres
     std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};  ///< unit vectors
 };
+
+/// The frame in a text that `svt convert` writes into a case: "Metres from (x, y, z) along (a, b, c) and (d, e, f)". The
+/// first axis points along x of the case, the second along y.
+[[nodiscard]] std::optional<Frame> frameOfComment(std::string_view text);
 
 /// Places of nodes along the axes of a file, strictly ascending, metres.
 using NodePlaces = std::array<std::vector<double>, 3>;

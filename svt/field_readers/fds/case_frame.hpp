@@ -6,14 +6,7 @@
 #include <svt/field_readers/common/reading.hpp>
 #include <svt/field_readers/fds/smv_file.hpp>
 
-#include <optional>
-#include <string_view>
-
 namespace svt::field_readers {
-
-/// The frame in the comment that `svt convert` writes: "Metres from (x, y, z) along (a, b, c) and (d, e, f)". The first axis
-/// points along x of FDS, the second along y.
-[[nodiscard]] std::optional<Frame> frameOfComment(std::string_view fdsText);
 
 /// The frame of a case: FieldReadOptions::at and the comment of its input file, which is looked for beside the `.smv`; else
 /// world coordinates, with a note.

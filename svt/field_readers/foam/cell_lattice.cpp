@@ -1,6 +1,5 @@
 #include <svt/field_readers/foam/cell_lattice.hpp>
 
-#include <svt/field_readers/fds/case_frame.hpp>
 #include <svt/field_readers/foam/foam_text.hpp>
 
 #include <fmt/format.h>

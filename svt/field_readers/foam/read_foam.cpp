@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -41,7 +42,7 @@ std::string_view quantityOf(std::string_view name) noexcept {
 // A folder with values: the whole case, or one of its parts.
 struct Source {
     fs::path folder;
-    std::vector<std::int64_t> cells;  // of the case, by cell of the part; empty: the whole case
+    std::optional<std::vector<std::int64_t>> cells;  // of the case, by cell of the part; unset: the whole case
 };
 
 // A time with the folders that have its values.
@@ -77,11 +78,12 @@ private:
     Result<void> listParts() {
         whole_.folder = folder_;
         std::error_code failed;
+        std::size_t covered = 0;
         if (hasCollated())
             reading_.warn(Code::FieldInPart, "collated results of processors are left out; run reconstructPar");
         for (int n = 0;; ++n) {
             const fs::path part = folder_ / fmt::format("processor{}", n);
-            if (!fs::is_directory(part, failed)) return {};
+            if (!fs::is_directory(part, failed)) break;
             const fs::path file = part / "constant" / "polyMesh" / "cellProcAddressing";
             SVT_TRY(bytes, foamBytes(file, reading_.options.maxBytes));
             SVT_TRY(reader, FoamReader::open(*bytes, file));
@@ -90,8 +92,15 @@ private:
             for (const std::int64_t cell : *cells)
                 if (cell < 0 || cell >= count)
                     return badField(fmt::format("cell {} is not one of the {} cells of the case", cell, count), file);
+            covered += cells->size();
             parts_.push_back({part, std::move(*cells)});
         }
+        if (!parts_.empty() && covered != lattice_.nodeOfCell.size())
+            reading_.warn(Code::FieldInPart,
+                          fmt::format("the {} processors have {} of the {} cells; times that only they "
+                                      "have lack the others",
+                                      parts_.size(), covered, lattice_.nodeOfCell.size()));
+        return {};
     }
 
     [[nodiscard]] bool hasCollated() const {
@@ -212,7 +221,7 @@ private:
         SVT_TRY(bytes, foamBytes(file, reading_.options.maxBytes));
         SVT_TRY(reader, FoamReader::open(*bytes, file));
         SVT_TRY(field, reader->field());
-        const std::size_t cells = source.cells.empty() ? lattice_.nodeOfCell.size() : source.cells.size();
+        const std::size_t cells = source.cells ? source.cells->size() : lattice_.nodeOfCell.size();
         const auto components = static_cast<std::size_t>(array.components);
         if (field->components != array.components)
             return badField(fmt::format("the field is a {}, unlike at other times", reader->header().className), file);
@@ -224,7 +233,7 @@ private:
             return badField(fmt::format("the dimensions are {}, and {} at other times", field->unit, array.unit), file);
         array.unit = field->unit;
         for (std::size_t cell = 0; cell < cells; ++cell) {
-            const std::size_t of = source.cells.empty() ? cell : static_cast<std::size_t>(source.cells[cell]);
+            const std::size_t of = source.cells ? static_cast<std::size_t>((*source.cells)[cell]) : cell;
             const std::size_t from = field->isUniform ? 0 : cell * components;
             for (std::size_t c = 0; c < components; ++c)
                 to[lattice_.nodeOfCell[of] * components + c] = static_cast<float>(field->values[from + c]);

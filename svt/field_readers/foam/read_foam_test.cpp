@@ -201,6 +201,19 @@ TEST_F(ReadFoam, PartsOfADecomposedCaseAreJoined) {
     EXPECT_EQ(field.head.times, std::vector<double>{7});
     EXPECT_EQ(shown(field), (std::vector<float>{300, -1, 301, 302, 303, 304}));
     EXPECT_EQ(diagnostics.count(Code::FieldInPart), 1u) << "processor0 lacks the time 8";
+    // A processor without cells changes nothing, also where its field is uniform.
+    const fs::path idle = foam.folder / "processor2";
+    fs::create_directories(idle / "constant" / "polyMesh");
+    writeText(idle / "constant" / "polyMesh" / "cellProcAddressing", header("labelList") + "0()\n");
+    foam.field("processor2/7", "T", "volScalarField", kKelvin, "uniform 1");
+    EXPECT_EQ(shown(only(foam.folder)), (std::vector<float>{300, -1, 301, 302, 303, 304}));
+    fs::remove_all(idle);
+    // Without processor1, its cells have no value, and a warning says so.
+    fs::rename(foam.folder / "processor1", folder / "away");
+    diagnostics = {};
+    EXPECT_EQ(shown(only(foam.folder)), (std::vector<float>{300, -1, -1, -1, 303, -1}));
+    EXPECT_EQ(diagnostics.count(Code::FieldInPart), 1u);
+    fs::rename(folder / "away", foam.folder / "processor1");
     writeText(foam.folder / "processor1" / "constant" / "polyMesh" / "cellProcAddressing",
               header("labelList") + "3\n(\n1\n2\n5\n)\n");
     EXPECT_NE(messageOf(foam.folder).find("cell 5 is not one of the 5 cells"), std::string::npos);

@@ -36,7 +36,7 @@ public:
             std::vector<bool> isSelected(spaces.size());
             for (const std::uint32_t label : *selected) isSelected[label] = true;
             for (std::size_t l = 0; l < spaces.size(); ++l)
-                if (spaces[l] != kNoLabel && !isSelected[l] && !isSelected[spaces[l]]) spaces[l] = kNoLabel;
+                if (spaces[l] != kNoLabel && !isSelected[spaces[l]]) spaces[l] = kNoLabel;
         }
         const auto boxes = analyze::labelBoxes(volume.columns, volume.labels);
         for (std::size_t l = 0; l < spaces.size(); ++l) {
@@ -96,11 +96,12 @@ private:
     void spread(std::size_t at, std::int32_t piece) {
         const auto nx = static_cast<std::size_t>(cells_.size.x), ny = static_cast<std::size_t>(cells_.size.y);
         const std::array<std::size_t, 3> steps{1, nx, nx * ny};
-        const std::array<std::size_t, 3> voxel{at % nx, at / nx % ny, at / (nx * ny)};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto last = static_cast<std::size_t>(cells_.size[static_cast<int>(axis)] - 1);
-            if (voxel[axis] > 0 && cells_.numbers[at - steps[axis]] == kNotReached) enter(at - steps[axis], piece);
-            if (voxel[axis] < last && cells_.numbers[at + steps[axis]] == kNotReached) enter(at + steps[axis], piece);
+        const Vec3i voxel = cells_.voxelAt(at);
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::size_t step = steps[static_cast<std::size_t>(axis)];
+            if (voxel[axis] > 0 && cells_.numbers[at - step] == kNotReached) enter(at - step, piece);
+            if (voxel[axis] + 1 < cells_.size[axis] && cells_.numbers[at + step] == kNotReached)
+                enter(at + step, piece);
         }
     }
 
@@ -133,11 +134,7 @@ std::string largestPieces(const SemanticVolume& volume, const Air& air, const Ai
     std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.voxels > b.voxels; });
     std::string text;
     for (std::size_t p = 0; p < std::min(pieces.size(), kNamedPieces); ++p) {
-        const auto nx = static_cast<std::size_t>(cells.size.x), ny = static_cast<std::size_t>(cells.size.y);
-        const std::size_t at = pieces[p].first;
-        const Vec3i voxel{static_cast<std::int32_t>(at % nx), static_cast<std::int32_t>(at / nx % ny),
-                          static_cast<std::int32_t>(at / (nx * ny))};
-        const Vec3i of = cells.first + voxel;
+        const Vec3i of = cells.first + cells.voxelAt(pieces[p].first);
         const std::uint32_t room = air.spaceOfScalar[volume.columns.scalarAt(of.x, of.y, of.z)];
         text += fmt::format("{}'{}' with {} cells", text.empty() ? "" : ", ", shownName(volume.labels.labels[room]),
                             pieces[p].voxels);

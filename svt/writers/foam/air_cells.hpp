@@ -28,6 +28,11 @@ struct AirCells {
                static_cast<std::size_t>(size.x) *
                    (static_cast<std::size_t>(y) + static_cast<std::size_t>(size.y) * static_cast<std::size_t>(z));
     }
+    [[nodiscard]] Vec3i voxelAt(std::size_t index) const noexcept {
+        const auto nx = static_cast<std::size_t>(size.x), ny = static_cast<std::size_t>(size.y);
+        return {static_cast<std::int32_t>(index % nx), static_cast<std::int32_t>(index / nx % ny),
+                static_cast<std::int32_t>(index / (nx * ny))};
+    }
     /// The number of the cell at a voxel of the box or beside it.
     [[nodiscard]] std::int32_t at(Vec3i voxel) const noexcept {
         for (int axis = 0; axis < 3; ++axis)
@@ -42,7 +47,7 @@ struct AirCells {
 /// \param maxCells bound of the cells, and, times 8, of the voxels of their box
 /// \return the cells; BadQuery; NothingSelected for no air; BadArgument for more cells than maxCells, and for several
 ///         large pieces, with the rooms of the largest ones
-/// Cost: O(voxels of the box). Memory: 8 bytes for each.
+/// Cost: O(voxels of the box). Memory: 12 bytes for each.
 [[nodiscard]] Result<AirCells> airCells(const volume::SemanticVolume& volume, const std::string& air,
                                         std::uint64_t maxCells);
 

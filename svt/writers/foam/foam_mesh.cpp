@@ -157,12 +157,7 @@ private:
         std::uint32_t points = 0;
         for (std::int32_t& point : pointOfNode_)
             if (point != AirCells::kNone) point = static_cast<std::int32_t>(points++);
-        const Vec3d corner = lowerCorner(volume_.grid);
-        const auto& axes = volume_.grid.axes();
-        FoamFile file(
-            folder_, "constant/polyMesh/points", "vectorField",
-            fmt::format("Metres from ({:.4f}, {:.4f}, {:.4f}) along ({}, {}, {}) and ({}, {}, {})", corner.x, corner.y,
-                        corner.z, axes[0].x, axes[0].y, axes[0].z, axes[1].x, axes[1].y, axes[1].z));
+        FoamFile file(folder_, "constant/polyMesh/points", "vectorField", placeText(volume_.grid));
         file.line("{}\n(", points);
         std::size_t index = 0;
         for (std::int32_t k = 0; k <= cells_.size.z; ++k)
@@ -197,12 +192,7 @@ private:
         FoamFile file(folder_, "constant/polyMesh/faces", "faceList");
         file.line("{}\n(", innerFaces_ + border_.size());
         forEachInnerFace([&](Vec3i voxel, std::uint32_t, int axis, std::int32_t) { addFace(file, voxel, axis, true); });
-        const auto nx = static_cast<std::uint32_t>(cells_.size.x), ny = static_cast<std::uint32_t>(cells_.size.y);
-        for (const BorderFace& face : border_)
-            addFace(file,
-                    {static_cast<std::int32_t>(face.voxel % nx), static_cast<std::int32_t>(face.voxel / nx % ny),
-                     static_cast<std::int32_t>(face.voxel / nx / ny)},
-                    face.axis, face.isUpper);
+        for (const BorderFace& face : border_) addFace(file, cells_.voxelAt(face.voxel), face.axis, face.isUpper);
         file.line(")");
         return file.end();
     }

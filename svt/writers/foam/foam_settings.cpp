@@ -68,7 +68,7 @@ PIMPLE
 }
 )foam"},
     {"system/decomposeParDict", "dictionary", R"foam(numberOfSubdomains 2;
-// Slices along x; Debian's OpenFOAM has no other method for any number of processes.
+// Slices along x. Debian's OpenFOAM lacks the method scotch.
 method simple;
 coeffs { n (2 1 1); }
 )foam"},

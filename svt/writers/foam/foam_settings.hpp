@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Those files of an OpenFOAM case that are the same for every volume.
+/// The files of an OpenFOAM case that are the same for every volume.
 
 #include <span>
 #include <string_view>

@@ -57,11 +57,8 @@ public:
         std::replace_if(
             chid.begin(), chid.end(), [](char c) { return !isDigit(c) && !isLetter(c) && c != '-'; }, '_');
         line("&HEAD CHID='{}', TITLE='{}' /", chid, fdsText(volume.modelName.empty() ? name : volume.modelName, 200));
-        const Vec3d corner = lowerCorner(grid_);
-        const auto& axes = grid_.axes();
         line("");
-        line("Geometry by SVT. Metres from ({:.4f}, {:.4f}, {:.4f}) along ({}, {}, {}) and ({}, {}, {}); CRS: {}",
-             corner.x, corner.y, corner.z, axes[0].x, axes[0].y, axes[0].z, axes[1].x, axes[1].y, axes[1].z,
+        line("Geometry by SVT. {}; CRS: {}", placeText(grid_),
              volume.crsName.empty() ? "unknown" : fdsText(volume.crsName, 200));
         line(
             "T_END = 0 only sets up the geometry, to be looked at in Smokeview. Lines that do not begin with & are "

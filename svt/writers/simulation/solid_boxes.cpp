@@ -5,6 +5,8 @@
 
 #include <svt/analyze/selection.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -46,6 +48,13 @@ Vec3d cornerOf(Vec3i samples, const volume::Grid& grid) noexcept {
     const Vec3d spacing = grid.spacing();
     return {roundedMetres(samples.x * spacing.x), roundedMetres(samples.y * spacing.y),
             roundedMetres(samples.z * spacing.z)};
+}
+
+std::string placeText(const volume::Grid& grid) {
+    const Vec3d corner = lowerCorner(grid);
+    const auto& axes = grid.axes();
+    return fmt::format("Metres from ({:.4f}, {:.4f}, {:.4f}) along ({}, {}, {}) and ({}, {}, {})", corner.x, corner.y,
+                       corner.z, axes[0].x, axes[0].y, axes[0].z, axes[1].x, axes[1].y, axes[1].z);
 }
 
 double roundedMetres(double metres) noexcept { return std::round(metres * 1e6) / 1e6; }

@@ -39,6 +39,10 @@ struct SolidBoxes {
 /// The corner of a box in metres along the grid's axes, from the lower corner of the first voxel.
 [[nodiscard]] Vec3d cornerOf(Vec3i samples, const volume::Grid& grid) noexcept;
 
+/// The place of coordinates of cornerOf(): "Metres from (x, y, z) along (x axis) and (y axis)", world space. The readers
+/// of results find it by this text (field_readers::frameOfComment()).
+[[nodiscard]] std::string placeText(const volume::Grid& grid);
+
 /// Rounds to a micrometre (or square millimetre), so that a file has no digits from rounding errors.
 [[nodiscard]] double roundedMetres(double metres) noexcept;
 
