@@ -38,6 +38,7 @@ COMMANDS = [
         "field-export",
         "field-remove",
         "simulate-heat",
+        "simulate-spread",
     ),
     *("serve", "view", "city-plan", "city-run", "city-task", "city-status", "city-merge", "city-info", "city-extract"),
     *("thumbnail", "doctor", "describe"),

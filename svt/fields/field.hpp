@@ -81,4 +81,7 @@ struct Field {
 /// \param labelCount  entries of the volume's label table, for fields of kind Label
 [[nodiscard]] std::size_t placeCount(const FieldHead& head, std::size_t labelCount) noexcept;
 
+/// The lengths of the vectors of a field, as a field of one component; NaN where a component is missing.
+[[nodiscard]] Field lengthsOf(const Field& vectors);
+
 }  // namespace svt::fields

@@ -30,8 +30,8 @@ struct ThermalRule {
     std::string query;
     /// W/(m K). 0: no heat passes (adiabatic). For a window or door: it conducts as a solid instead of by its U-value.
     double conductivity = 0;
-    double density = 0;       ///< kg/m3; 0: not given. Not used by steady conduction.
-    double specificHeat = 0;  ///< J/(kg K); 0: not given. Not used by steady conduction.
+    double density = 0;       ///< kg/m3; 0: not given. Only for temperatures over time.
+    double specificHeat = 0;  ///< J/(kg K); 0: not given. Only for temperatures over time.
     friend bool operator==(const ThermalRule&, const ThermalRule&) = default;
 };
 
@@ -108,6 +108,14 @@ struct ThermalAssumption {
     std::string source;                 ///< "table", "model", "transmittance", "word" or "default"
     std::string detail;                 ///< the query, attribute, word or class that decided
     double conductivity = 0;            ///< W/(m K)
+    std::vector<std::uint32_t> labels;  ///< components, ascending
+};
+
+/// The components of one heat capacity from one source.
+struct CapacityAssumption {
+    std::string source;                 ///< "table", "model", "word" or "default"
+    std::string detail;                 ///< the query, attribute, word or class that decided
+    double heatCapacity = 0;            ///< J/(m3 K): density times specific heat
     std::vector<std::uint32_t> labels;  ///< components, ascending
 };
 

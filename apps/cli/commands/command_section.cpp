@@ -135,11 +135,12 @@ Result<void> checkField(const SectionArguments& arguments) {
     if (options.range && !((*options.range)[0] < (*options.range)[1]))
         return Error(Code::BadArgument, fmt::format("--range {:g},{:g}: expected a first value below the second",
                                                     (*options.range)[0], (*options.range)[1]));
-    const bool hasAny = options.time || options.isolines != 0 || options.bands || options.range ||
+    const bool hasAny = options.time || options.isolines != 0 || options.bands || options.arrows || options.range ||
                         arguments.map != image::ColorMap::Viridis;
     if (arguments.field.empty() && hasAny)
-        return Error(Code::BadArgument,
-                     "--time, --isolines, --bands, --range and --map are for a field; give its name with --field");
+        return Error(
+            Code::BadArgument,
+            "--time, --isolines, --bands, --arrows, --range and --map are for a field; give its name with --field");
     return {};
 }
 
@@ -262,8 +263,10 @@ Members<SectionArguments> membersOf(const SectionArguments*) noexcept {
         member<&All::section, &drawing::SectionOptions::smallestArea>(
             "--min-area", "leave out polygons smaller than this",
             {.unit = "m2", .least = 0, .most = 1e9, .group = "Drawing", .isForProjects = true}),
-        member<&All::field>("--field", "draw this field of the volume: bands and lines of equal value, with a legend",
-                            {.value = "NAME", .group = "Field"}),
+        member<&All::field>(
+            "--field",
+            "draw this field of the volume: bands and lines of equal value, arrows of vectors, with a legend",
+            {.value = "NAME", .group = "Field"}),
         member<&All::fieldDrawing, &drawing::FieldDrawingOptions::time>(
             "--time", "time of the field",
             {.unit = "seconds", .least = -1e12, .most = 1e12, .otherwise = "its first", .group = "Field"}),
@@ -276,6 +279,13 @@ Members<SectionArguments> membersOf(const SectionArguments*) noexcept {
              .least = 0,
              .most = 1e12,
              .otherwise = "that of --isolines, or a round step for 8 to 20 bands",
+             .group = "Field"}),
+        member<&All::fieldDrawing, &drawing::FieldDrawingOptions::arrows>(
+            "--arrows", "draw arrows of a field of vectors, this far apart; 0: none",
+            {.unit = "metres",
+             .least = 0,
+             .most = 1e6,
+             .otherwise = "a round number, with 40 to 100 arrows across the drawing",
              .group = "Field"}),
         member<&All::fieldDrawing, &drawing::FieldDrawingOptions::range>(
             "--range", "values of the field at the ends of the colour map",

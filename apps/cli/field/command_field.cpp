@@ -2,6 +2,7 @@
 #include <apps/cli/field/field_export.hpp>
 #include <apps/cli/field/field_tables.hpp>
 #include <apps/cli/options/catalog.hpp>
+#include <apps/cli/options/field_input.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>

@@ -232,15 +232,4 @@ Result<void> writeTable(const Table& table, const std::filesystem::path& output)
     return {};
 }
 
-Result<void> requireSvt(const std::filesystem::path& input) {
-    SVT_TRY(file, PartFile::open(input));
-    SVT_TRY(head, file->read(0, 4096));
-    if (volume::looksLikeSvt(std::as_bytes(std::span(*head)))) return {};
-    return Error(
-        Code::BadVolume,
-        "this is not a .svt, so it has no fields; build a volume with 'svt build', then add fields with 'svt field "
-        "add'",
-        Place{input.string(), 0, 0, {}});
-}
-
 }  // namespace svt::cli

@@ -39,9 +39,6 @@ inline constexpr std::uint64_t kMostValueRows = 2'000'000;
 /// Writes a table as its ending says: .csv, .json or .parquet.
 [[nodiscard]] Result<void> writeTable(const Table& table, const std::filesystem::path& output);
 
-/// \return success, or BadVolume for an input that is not a `.svt`
-[[nodiscard]] Result<void> requireSvt(const std::filesystem::path& input);
-
 /// The values of a field at places over time: a row per place and time.
 /// \param places  world space
 [[nodiscard]] Result<Table> probeTable(const fields::Field& field, const volume::SemanticVolume& volume,

@@ -6,19 +6,19 @@ namespace svt::cli {
 extern const CommandText kSampleCommand, kSampleCityCommand, kBuildCommand, kInfoCommand, kCheckCommand, kRenderCommand,
     kThumbnailCommand, kSectionCommand, kSheetsCommand, kQueryCommand, kQuantitiesCommand, kFieldListCommand,
     kFieldAddCommand, kFieldStatsCommand, kFieldProbeCommand, kFieldExportCommand, kFieldRemoveCommand,
-    kSimulateHeatCommand, kCadastreCommand, kDiffCommand, kShellCommand, kConvertCommand, kServeCommand, kViewCommand,
-    kPublishCommand, kCityPlanCommand, kCityRunCommand, kCityTaskCommand, kCityStatusCommand, kCityMergeCommand,
-    kCityInfoCommand, kCityExtractCommand, kDoctorCommand, kDescribeCommand;
+    kSimulateHeatCommand, kSimulateSpreadCommand, kCadastreCommand, kDiffCommand, kShellCommand, kConvertCommand,
+    kServeCommand, kViewCommand, kPublishCommand, kCityPlanCommand, kCityRunCommand, kCityTaskCommand,
+    kCityStatusCommand, kCityMergeCommand, kCityInfoCommand, kCityExtractCommand, kDoctorCommand, kDescribeCommand;
 
 std::span<const CommandText> commandTexts() {
     static const CommandText kAll[] = {
-        kSampleCommand,      kSampleCityCommand,  kBuildCommand,        kInfoCommand,       kCheckCommand,
-        kRenderCommand,      kThumbnailCommand,   kSectionCommand,      kSheetsCommand,     kQueryCommand,
-        kQuantitiesCommand,  kFieldListCommand,   kFieldAddCommand,     kFieldStatsCommand, kFieldProbeCommand,
-        kFieldExportCommand, kFieldRemoveCommand, kSimulateHeatCommand, kCadastreCommand,   kDiffCommand,
-        kShellCommand,       kConvertCommand,     kServeCommand,        kViewCommand,       kPublishCommand,
-        kCityPlanCommand,    kCityRunCommand,     kCityTaskCommand,     kCityStatusCommand, kCityMergeCommand,
-        kCityInfoCommand,    kCityExtractCommand, kDoctorCommand,       kDescribeCommand};
+        kSampleCommand,      kSampleCityCommand,  kBuildCommand,        kInfoCommand,           kCheckCommand,
+        kRenderCommand,      kThumbnailCommand,   kSectionCommand,      kSheetsCommand,         kQueryCommand,
+        kQuantitiesCommand,  kFieldListCommand,   kFieldAddCommand,     kFieldStatsCommand,     kFieldProbeCommand,
+        kFieldExportCommand, kFieldRemoveCommand, kSimulateHeatCommand, kSimulateSpreadCommand, kCadastreCommand,
+        kDiffCommand,        kShellCommand,       kConvertCommand,      kServeCommand,          kViewCommand,
+        kPublishCommand,     kCityPlanCommand,    kCityRunCommand,      kCityTaskCommand,       kCityStatusCommand,
+        kCityMergeCommand,   kCityInfoCommand,    kCityExtractCommand,  kDoctorCommand,         kDescribeCommand};
     return kAll;
 }
 

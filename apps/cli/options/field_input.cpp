@@ -1,15 +1,28 @@
 #include <apps/cli/options/field_input.hpp>
 #include <apps/cli/output/messages.hpp>
 
+#include <svt/core/file.hpp>
 #include <svt/fields/svt_fields.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
 
+#include <span>
 #include <string>
 #include <vector>
 
 namespace svt::cli {
+
+Result<void> requireSvt(const std::filesystem::path& input) {
+    SVT_TRY(file, PartFile::open(input));
+    SVT_TRY(head, file->read(0, 4096));
+    if (volume::looksLikeSvt(std::as_bytes(std::span(*head)))) return {};
+    return Error(
+        Code::BadVolume,
+        "this is not a .svt, so it has no fields; build a volume with 'svt build', then add fields with 'svt field "
+        "add'",
+        Place{input.string(), 0, 0, {}});
+}
 
 Result<fields::Field> readFieldOf(const std::filesystem::path& input, const std::string& name) {
     if (!volume::isSvtFile(input))

@@ -10,7 +10,10 @@
 
 namespace svt::cli {
 
-/// A field of a volume by name.
+/// \return success, or BadVolume for an input that is not a `.svt`
+[[nodiscard]] Result<void> requireSvt(const std::filesystem::path& input);
+
+/// A field of a volume by name, for --field.
 /// \return the field, or BadArgument if the input is not a `.svt`, or an error of fields::readField()
 [[nodiscard]] Result<fields::Field> readFieldOf(const std::filesystem::path& input, const std::string& name);
 

@@ -6,20 +6,24 @@
 #include <apps/cli/output/table.hpp>
 
 #include <svt/simulate/heat.hpp>
+#include <svt/simulate/heat_over_time.hpp>
 
 #include <string>
 #include <vector>
 
 namespace svt::cli {
 
-/// A row per room, and one for outside air.
+/// A row per room, and one for outside air; over time, for each time.
 [[nodiscard]] Table heatTable(const volume::SemanticVolume& volume, const simulate::HeatResult& result);
+[[nodiscard]] Table heatTable(const volume::SemanticVolume& volume, const simulate::HeatOverTime& result);
 
 /// Everything except the field.
 [[nodiscard]] Json heatJson(const volume::SemanticVolume& volume, const simulate::HeatResult& result);
+[[nodiscard]] Json heatJson(const volume::SemanticVolume& volume, const simulate::HeatOverTime& result);
 
 /// Notes on the figures: assumptions, the share of faces without a plane, leaks.
 [[nodiscard]] std::vector<std::string> heatNotes(const volume::SemanticVolume& volume,
                                                  const simulate::HeatResult& result);
+[[nodiscard]] std::vector<std::string> heatNotes(const simulate::HeatOverTime& result);
 
 }  // namespace svt::cli

@@ -5,9 +5,11 @@
 namespace svt {
 
 std::string bytesText(std::uint64_t bytes) {
-    constexpr double kMb = 1e6, kGb = 1e9;
-    return double(bytes) < kGb ? fmt::format("{:.0f} MB", double(bytes) / kMb)
-                               : fmt::format("{:.1f} GB", double(bytes) / kGb);
+    constexpr double kKb = 1e3, kMb = 1e6, kGb = 1e9;
+    const auto size = static_cast<double>(bytes);
+    return size < kMb   ? fmt::format("{:.0f} kB", size / kKb)
+           : size < kGb ? fmt::format("{:.0f} MB", size / kMb)
+                        : fmt::format("{:.1f} GB", size / kGb);
 }
 
 std::optional<MemoryGrant> memoryGrant() {

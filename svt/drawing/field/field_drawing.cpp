@@ -1,6 +1,7 @@
 #include <svt/drawing/field_drawing.hpp>
 
 #include <svt/core/rounding.hpp>
+#include <svt/drawing/field/field_arrows.hpp>
 #include <svt/drawing/field/field_contours.hpp>
 #include <svt/drawing/field/field_regions.hpp>
 #include <svt/drawing/field/region_grid.hpp>
@@ -107,12 +108,13 @@ Result<void> checkStep(const fields::FieldHead& head, double step, double range,
                     option, step, head.name, range, std::ceil(range / step), kMostLevels, range / kMostLevels));
 }
 
-Result<FieldDrawing> drawField(const SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                               const fields::Field& field, const FieldDrawingOptions& options) {
+namespace {
+
+// Draws a field of one component, with the arrows of `vectors` if it has their lengths.
+Result<FieldDrawing> drawNumbers(const SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                                 const fields::Field& field, const fields::Field* vectors,
+                                 const FieldDrawingOptions& options) {
     const fields::FieldHead& head = field.head;
-    if (head.components != 1)
-        return Error(Code::BadArgument, fmt::format("the field '{}' has {} components; sections show fields of one",
-                                                    head.name, head.components));
     SVT_TRY(sampler, fields::FieldSampler::make(field, volume));
     SVT_TRY(isMedium, fields::mediumOf(head, volume));
     fields::FieldHead air = head;
@@ -139,7 +141,8 @@ Result<FieldDrawing> drawField(const SectionDrawing& drawing, const volume::Sema
     const Vec3d spacing = volume.grid.spacing();
     PlaneAxes axes = drawing.axes;
     axes.origin = axes.origin - drawing.plane.normal * (kKeptHair * std::min({spacing.x, spacing.y, spacing.z}));
-    const FieldSource source{field, volume, *sampler, *isMedium, *isAir, axes, *seconds, options.threads};
+    const double least = vectors != nullptr ? 0 : -kInfinity;
+    const FieldSource source{field, volume, *sampler, *isMedium, *isAir, axes, *seconds, least, options.threads};
     const std::vector<FieldRegion> regions =
         findFieldRegions(drawing, volume, *isMedium, *isAir, head.kind != fields::FieldKind::Grid);
     std::deque<RegionGrid> grids;
@@ -155,9 +158,28 @@ Result<FieldDrawing> drawField(const SectionDrawing& drawing, const volume::Sema
         SVT_TRY(bands, joinedBands(grids, made.bandStep));
         made.bands = std::move(*bands);
     }
+    if (vectors != nullptr) {
+        SVT_TRY(step, arrowStepOf(grids, options));
+        SVT_TRY(directions, fields::FieldSampler::make(*vectors, volume));
+        const FieldSource arrows{*vectors, volume,   *directions, *isMedium,      *isAir,
+                                 axes,     *seconds, least,       options.threads};
+        made.arrowStep = *step;
+        made.arrows = findArrows(grids, arrows, *step, made.high);
+    }
     SVT_TRY(without, joined(missing, "places without a value"));
     made.missing = std::move(*without);
     return made;
+}
+
+}  // namespace
+
+Result<FieldDrawing> drawField(const SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                               const fields::Field& field, const FieldDrawingOptions& options) {
+    if (field.head.components == 3) return drawNumbers(drawing, volume, fields::lengthsOf(field), &field, options);
+    if (options.arrows && *options.arrows != 0)
+        return Error(Code::BadArgument,
+                     fmt::format("--arrows: the field '{}' has numbers, not vectors", field.head.name));
+    return drawNumbers(drawing, volume, field, nullptr, options);
 }
 
 }  // namespace svt::drawing

@@ -372,5 +372,80 @@ TEST(FieldDrawing, CoarseLatticesStayInTheirRooms) {
     EXPECT_NEAR(areaOf(made.bands[0].polygons), 1.9 * 2.9, 1e-3);
 }
 
+// vectorAt(metres along the axes of the grid) at each node.
+fields::Field vectorsOf(const std::function<Vec3d(Vec3d)>& vectorAt) {
+    fields::Field field;
+    for (int c = 0; c < 3; ++c) {
+        const fields::Field part = fieldOf("air", [&](Vec3d p) { return vectorAt(p)[c]; });
+        field.head = part.head;
+        field.values.insert(field.values.end(), part.values.begin(), part.values.end());
+    }
+    field.head.components = 3;
+    return field;
+}
+
+TEST(FieldDrawing, ArrowsAreThePartsOfVectorsInThePlane) {
+    const double turn = std::numbers::pi / 6, c = std::cos(turn), s = std::sin(turn);
+    for (const auto& axes :
+         {volume::test::kWorldAxes, std::array<Vec3d, 3>{Vec3d{c, s, 0}, Vec3d{-s, c, 0}, Vec3d{0, 0, 1}}}) {
+        const SemanticVolume volume = twoRooms(axes);
+        const SectionDrawing drawing = planOf(volume);
+        const fields::Field field = vectorsOf([](Vec3d p) { return p.x < 2.05 ? Vec3d{3, 4, 12} : Vec3d{0, -20, 0}; });
+        FieldDrawingOptions options;
+        options.arrows = 0.1;
+        const FieldDrawing made = drawn(drawing, volume, field, options);
+        EXPECT_EQ(made.high, 20);
+        EXPECT_EQ(made.low, 13);
+        int west = 0, east = 0;
+        std::vector<FieldIsoline> lines;
+        for (const FieldArrow& arrow : made.arrows) {
+            const bool isWest = arrow.value < 10;
+            ++(isWest ? west : east);
+            EXPECT_NEAR(arrow.value, isWest ? 5 : 20, 1e-4);
+            const Vec3d wanted = isWest ? axes[0] * 0.6 + axes[1] * 0.8 : axes[1] * -1.0;
+            const Vec3d way = drawing.axes.worldFromPlane(arrow.to) - drawing.axes.worldFromPlane(arrow.from);
+            EXPECT_NEAR(length(way - wanted * (isWest ? 0.0475 : 0.095)), 0, 1e-6);
+            const double u = (arrow.from.u + arrow.to.u) / 2, v = (arrow.from.v + arrow.to.v) / 2;
+            EXPECT_NEAR(std::remainder(u, 0.1), 0, 1e-9);
+            EXPECT_NEAR(std::remainder(v, 0.1), 0, 1e-9);
+            lines.push_back({arrow.value, {arrow.from, arrow.to}});
+        }
+        EXPECT_GT(west, 450);  // of 1.9 x 2.9 m
+        EXPECT_GT(east, 450);
+        EXPECT_EQ(lengthInside(lines, drawing, {0, 3}), 0) << "arrows in walls";
+        options.arrows = 0;
+        EXPECT_TRUE(drawn(drawing, volume, field, options).arrows.empty());
+        options.arrows = std::nullopt;
+        EXPECT_NEAR(drawn(drawing, volume, field, options).arrowStep, 0.1, 1e-12);
+    }
+}
+
+TEST(FieldDrawing, LengthsOfVectorsAreNotContinuedBelowZero) {
+    const SemanticVolume volume = twoRooms();
+    const fields::Field field = vectorsOf([](Vec3d p) { return Vec3d{0, 10 * std::max(0.0, p.x - 0.1), 0}; });
+    FieldDrawingOptions options;
+    options.bands = 0.2;
+    options.isolines = 0.2;
+    const FieldDrawing made = drawn(planOf(volume), volume, field, options);
+    ASSERT_FALSE(made.bands.empty());
+    EXPECT_GE(made.bands.front().low, 0);
+    for (const FieldIsoline& line : made.isolines) EXPECT_GE(line.value, 0);
+    for (const FieldArrow& arrow : made.arrows) EXPECT_GE(arrow.value, 0.01 * made.high);
+}
+
+TEST(FieldDrawing, RefusesArrowsThatAreTooManyOrOfNumbers) {
+    const SemanticVolume volume = twoRooms();
+    const SectionDrawing drawing = planOf(volume);
+    FieldDrawingOptions options;
+    options.arrows = 1e-4;
+    const auto many = drawField(drawing, volume, vectorsOf([](Vec3d) { return Vec3d{1, 0, 0}; }), options);
+    ASSERT_FALSE(many);
+    EXPECT_EQ(many.error().code(), Code::BadArgument);
+    EXPECT_NE(many.error().toString().find("--arrows"), std::string::npos);
+    const auto numbers = drawField(drawing, volume, fieldOf("air", [](Vec3d p) { return p.x; }), options);
+    ASSERT_FALSE(numbers);
+    EXPECT_EQ(numbers.error().code(), Code::BadArgument);
+}
+
 }  // namespace
 }  // namespace svt::drawing

@@ -248,7 +248,7 @@ void RegionGrid::extendNodes(bool areInside, int steps) {
                 const bool isWanted = (inside_[own] != 0) == areInside;
                 if (!isWanted || nodes_[own] != Node::Beyond || !std::isnan(values_[own])) continue;
                 const double value = continuedValue(i, j, areInside);
-                if (!std::isnan(value)) found.emplace_back(own, value);
+                if (!std::isnan(value)) found.emplace_back(own, std::max(value, source_.least));
             }
         if (found.empty()) return;
         for (const auto& [n, value] : found) values_[n] = value;
@@ -322,6 +322,28 @@ bool RegionGrid::isInside(std::size_t row, PlanePoint p) const noexcept {
         if ((a.v > p.v) != (b.v > p.v) && a.u + (p.v - a.v) / (b.v - a.v) * (b.u - a.u) < p.u) inside = !inside;
     }
     return inside;
+}
+
+bool RegionGrid::holds(PlanePoint from, PlanePoint to) const noexcept {
+    const auto cellOf = [](const std::vector<double>& lines, double at) {
+        const auto above = static_cast<std::size_t>(std::upper_bound(lines.begin(), lines.end(), at) - lines.begin());
+        return above == 0 || above == lines.size() ? lines.size() : above - 1;
+    };
+    const std::size_t column = cellOf(us_, from.u), row = cellOf(vs_, from.v), lastRow = cellOf(vs_, to.v);
+    if (column >= columns() || row >= rows() || lastRow >= rows()) return false;
+    const Place place = placeOf(column, row);
+    if (place == Place::Outside || place == Place::Missing || !isInside(row, from)) return false;
+    // Whether the points of an edge lie on different sides of a line.
+    const auto divides = [](PlanePoint a, PlanePoint b, PlanePoint p, PlanePoint q) {
+        const auto sideOf = [&](PlanePoint r) { return (b.u - a.u) * (r.v - a.v) - (b.v - a.v) * (r.u - a.u); };
+        return (sideOf(p) > 0) != (sideOf(q) > 0);
+    };
+    for (std::size_t r = std::min(row, lastRow); r <= std::max(row, lastRow); ++r)
+        for (const std::uint32_t e : edgesOf(r)) {
+            const auto& [a, b] = edges_[e];
+            if (divides(from, to, a, b) && divides(a, b, from, to)) return false;
+        }
+    return true;
 }
 
 std::vector<std::pair<PlanePoint, PlanePoint>> RegionGrid::clip(std::size_t column, std::size_t row, PlanePoint from,

@@ -31,6 +31,7 @@ struct FieldSource {
     const std::vector<char>& isAir;     ///< by scalar
     PlaneAxes axes;                     ///< of the section, a hair into the kept side
     double seconds = 0;
+    double least = -kInfinity;  ///< values are not continued below it
     int threads = 0;
 };
 
@@ -65,6 +66,11 @@ public:
                                                                       PlanePoint from, PlanePoint to) const;
     /// The rings of the region within a border cell, with the region to their left; parts along its sides may overlap.
     [[nodiscard]] std::vector<Ring> ringsIn(std::size_t column, std::size_t row) const;
+
+    /// Whether a segment lies within the region, where it has values.
+    [[nodiscard]] bool holds(PlanePoint from, PlanePoint to) const noexcept;
+    [[nodiscard]] PlanePoint low() const noexcept { return {us_.front(), vs_.front()}; }
+    [[nodiscard]] PlanePoint high() const noexcept { return {us_.back(), vs_.back()}; }
 
     /// Whether a cell without values lies in a component, not in empty space.
     [[nodiscard]] bool isInComponent(std::size_t column, std::size_t row) const noexcept;

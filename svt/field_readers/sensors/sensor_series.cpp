@@ -1,8 +1,8 @@
 #include <svt/field_readers/sensors/sensor_series.hpp>
 
 #include <svt/core/text.hpp>
-#include <svt/field_readers/sensors/iso_time.hpp>
 #include <svt/fields/check_field.hpp>
+#include <svt/record/times.hpp>
 
 #include <fmt/format.h>
 
@@ -11,29 +11,6 @@
 #include <limits>
 
 namespace svt::field_readers {
-
-bool TimeReader::read(std::string_view text, std::optional<double> number, double& to, std::string& fault) {
-    const auto date = number ? std::nullopt : parseIsoTime(text);
-    if (!number && !date) {
-        fault = fmt::format("'{}' is not a time; seconds or an ISO 8601 time such as 2026-01-05T08:15:00Z are expected",
-                            text);
-        return false;
-    }
-    const bool hasNoZone = date && !date->hasZone;
-    if (!isFirst_ && date.has_value() != isDated_) {
-        fault = fmt::format("'{}' is {}, but the first time is not", text, date ? "a date" : "a number of seconds");
-        return false;
-    }
-    if (!isFirst_ && hasNoZone != hasNoZone_) {
-        fault = fmt::format("'{}' {} a time zone, unlike the first time", text, hasNoZone ? "lacks" : "has");
-        return false;
-    }
-    isFirst_ = false;
-    isDated_ = date.has_value();
-    hasNoZone_ = hasNoZone;
-    to = number ? *number : date->seconds;
-    return true;
-}
 
 namespace {
 
@@ -82,7 +59,7 @@ Result<fields::Field> fieldOfSeries(const SensorSeries& series, Reading& reading
     double epoch = 0;
     if (series.isDated && !times.empty()) {
         epoch = std::floor(times.front());
-        head.epoch = isoText(epoch);
+        head.epoch = record::isoText(epoch);
         if (series.hasNoZone) {
             assumptions.add("zone", "times without a zone taken as UTC");
             reading.note("the times have no zone; they count as UTC");

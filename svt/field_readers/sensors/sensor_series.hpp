@@ -36,20 +36,6 @@ struct SensorSeries {
     bool hasNoZone = false;  ///< dates without a zone, taken as UTC
 };
 
-/// Reads a time: seconds, or an ISO 8601 text. The first time of a file decides for all.
-class TimeReader {
-public:
-    /// \return the time, or a text with the fault
-    [[nodiscard]] bool read(std::string_view text, std::optional<double> number, double& to, std::string& fault);
-    void describe(SensorSeries& series) const noexcept {
-        series.isDated = isDated_;
-        series.hasNoZone = hasNoZone_;
-    }
-
-private:
-    bool isFirst_ = true, isDated_ = false, hasNoZone_ = false;
-};
-
 /// Makes a field of points. Its times are all times of the samples; with dates, FieldHead::epoch is the first whole second.
 /// \return the field, or BadField for two values of a sensor at one time that differ; InputTooBig; BadArgument for units
 ///         and times

@@ -3,6 +3,7 @@
 #include <svt/field_readers/sensors/places.hpp>
 #include <svt/field_readers/sensors/sensor_series.hpp>
 #include <svt/record/csv_reader.hpp>
+#include <svt/record/times.hpp>
 
 #include <fmt/format.h>
 
@@ -41,7 +42,8 @@ public:
             if (csv_.isQuoteOpen()) return bad("a quote is not closed");
             SVT_DO(isLong_ ? addLongRow() : addWideRow());
         }
-        times_.describe(series_);
+        series_.isDated = times_.isDated();
+        series_.hasNoZone = times_.hasNoZone();
         series_.quantity = reading_.options.quantity.empty() ? series_.quantity : reading_.options.quantity;
         series_.name = fieldName(series_.quantity, fieldName(reading_.path.stem().string(), "sensors"));
         if (series_.samples.empty()) return badField("the table has no row with values", reading_.path);
@@ -164,7 +166,7 @@ private:
     std::size_t time_ = 0, sensor_ = 0, value_ = 0;
     std::vector<std::pair<std::size_t, std::uint32_t>> wide_;  // column and sensor
     std::map<std::string, std::uint32_t, std::less<>> index_;
-    TimeReader times_;
+    record::TimeReader times_;
     SensorSeries series_;
 };
 

@@ -2,6 +2,7 @@
 #include <svt/core/text.hpp>
 #include <svt/field_readers/sensors/places.hpp>
 #include <svt/field_readers/sensors/sensor_series.hpp>
+#include <svt/record/times.hpp>
 
 #include <fmt/format.h>
 #include <simdjson.h>
@@ -79,7 +80,8 @@ public:
             assumptions.add("places", reading_.options.places.empty()
                                           ? "coordinates of the Locations, taken as world space"
                                           : reading_.options.places.filename().string());
-            times_.describe(series);
+            series.isDated = times_.isDated();
+            series.hasNoZone = times_.hasNoZone();
             SVT_TRY(field, fieldOfSeries(series, reading_, std::move(assumptions)));
             fields.push_back(std::move(*field));
         }
@@ -180,7 +182,7 @@ private:
     Reading& reading_;
     std::map<std::string, SensorPlace, std::less<>> places_;
     std::map<std::string, SensorSeries> series_;
-    TimeReader times_;
+    record::TimeReader times_;
     std::uint64_t texts_ = 0, intervals_ = 0;
 };
 

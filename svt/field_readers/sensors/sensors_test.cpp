@@ -1,7 +1,7 @@
 #include <svt/field_readers/read_fields.hpp>
 
 #include <svt/core/temporary_folder_test.hpp>
-#include <svt/field_readers/sensors/iso_time.hpp>
+#include <svt/record/times.hpp>
 #include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
@@ -10,6 +10,9 @@
 
 namespace svt::field_readers {
 namespace {
+
+using record::isoText;
+using record::parseIsoTime;
 
 using svt::test::TemporaryFolder;
 using svt::test::writeText;

@@ -1,9 +1,9 @@
 #include <svt/fields/sampler/room_points.hpp>
 
 #include <svt/analyze/space_boundaries.hpp>
+#include <svt/fields/nearest_voxel.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace svt::fields {
 namespace {
@@ -11,47 +11,20 @@ namespace {
 using volume::kNoLabel;
 using volume::SemanticVolume;
 
-// The room of a place in voxel (x, y, z), else the room of the nearest voxel within reach.
+// The room of a place, else that of the nearest voxel within reach.
 class RoomFinder {
 public:
     RoomFinder(const SemanticVolume& volume, const std::vector<std::uint32_t>& spaces)
         : volume_(volume), spaces_(spaces), labelOfScalar_(volume.labels.labelOfScalar()) {}
 
     [[nodiscard]] std::uint32_t roomAt(Vec3d place) const {
-        const Vec3i n = volume_.grid.dimension();
-        Vec3i voxel;
-        for (int axis = 0; axis < 3; ++axis) {
-            if (!(place[axis] > -1e6 && place[axis] < 1e6)) return kNoLabel;
-            voxel[axis] = static_cast<std::int32_t>(std::floor(place[axis] + 0.5));
-        }
-        if (const std::uint32_t own = spaceOf(voxel); own != kNoLabel) return own;
-        const Vec3d spacing = volume_.grid.spacing();
-        Vec3i low, high;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto reach = static_cast<std::int32_t>(std::min(RoomPoints::kWallReach / spacing[axis], 32.0));
-            low[axis] = std::max(0, voxel[axis] - reach);
-            high[axis] = std::min(n[axis] - 1, voxel[axis] + reach);
-        }
-        std::uint32_t best = kNoLabel;
-        double nearest = RoomPoints::kWallReach * RoomPoints::kWallReach;
-        for (std::int32_t k = low.z; k <= high.z; ++k)
-            for (std::int32_t j = low.y; j <= high.y; ++j)
-                for (std::int32_t i = low.x; i <= high.x; ++i) {
-                    const Vec3d way = scaled(toDouble(Vec3i{i, j, k}) - place, spacing);
-                    if (!(dot(way, way) < nearest)) continue;
-                    const std::uint32_t space = spaceOf({i, j, k});
-                    if (space == kNoLabel) continue;
-                    best = space;
-                    nearest = dot(way, way);
-                }
-        return best;
+        const auto voxel =
+            nearestVoxel(volume_.grid, place, kWallReach, [&](Vec3i at) { return spaceOf(at) != kNoLabel; });
+        return voxel ? spaceOf(*voxel) : kNoLabel;
     }
 
 private:
     [[nodiscard]] std::uint32_t spaceOf(Vec3i voxel) const {
-        const Vec3i n = volume_.grid.dimension();
-        if (voxel.x < 0 || voxel.y < 0 || voxel.z < 0 || voxel.x >= n.x || voxel.y >= n.y || voxel.z >= n.z)
-            return kNoLabel;
         const std::uint32_t label = labelOfScalar_[volume_.columns.scalarAt(voxel.x, voxel.y, voxel.z)];
         return label == kNoLabel ? kNoLabel : spaces_[label];
     }

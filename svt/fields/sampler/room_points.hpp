@@ -13,12 +13,11 @@
 
 namespace svt::fields {
 
-/// Finds the nearest point of a field in the room of a place. Immutable; any thread may read it.
+/// Finds the nearest point of a field in the room of a place. A point in no room belongs to the nearest one within kWallReach.
+/// Immutable; any thread may read it.
 class RoomPoints {
 public:
     static constexpr std::size_t kNoPoint = std::numeric_limits<std::size_t>::max();
-    /// A point in no room, such as a sensor on a wall, belongs to the nearest room within this distance.
-    static constexpr double kWallReach = 0.25;  // metres
 
     RoomPoints() = default;
     /// \param volume  must outlive the object

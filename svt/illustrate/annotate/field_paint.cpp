@@ -60,17 +60,17 @@ std::optional<Vec3d> nearestIn(Vec3d index, const IsWanted& isWanted) noexcept {
 }  // namespace
 
 Result<FieldView> FieldView::make(const fields::Field& field, const volume::SemanticVolume& volume) {
-    if (field.head.components != 1)
-        return Error(Code::BadArgument,
-                     fmt::format("the field '{}' has {} components; colours show fields of one component",
-                                 field.head.name, field.head.components));
-    SVT_TRY(sampler, fields::FieldSampler::make(field, volume));
+    std::shared_ptr<const fields::Field> lengths;
+    if (field.head.components > 1) lengths = std::make_shared<const fields::Field>(fields::lengthsOf(field));
+    const fields::Field& shown = lengths ? *lengths : field;
+    SVT_TRY(sampler, fields::FieldSampler::make(shown, volume));
     SVT_TRY(isMedium, fields::mediumOf(field.head, volume));
     fields::FieldHead air = field.head;
     air.medium = "air";
     SVT_TRY(isAir, fields::mediumOf(air, volume));
     FieldView view(std::move(*sampler));
-    view.field_ = &field;
+    view.field_ = &shown;
+    view.lengths_ = std::move(lengths);
     view.volume_ = &volume;
     view.isMedium_ = std::move(*isMedium);
     view.labelOf_ = volume.labels.labelOfScalar();

@@ -26,11 +26,11 @@
 
 namespace svt::illustrate {
 
-/// A field of a volume, prepared for pictures.
+/// A field of a volume, prepared for pictures. Of vectors, it shows the lengths.
 class FieldView {
 public:
     /// \param field, volume  must outlive the view
-    /// \return or an error of fields::FieldSampler::make() and fields::mediumOf(); BadArgument for a vector field
+    /// \return or an error of fields::FieldSampler::make() and fields::mediumOf()
     [[nodiscard]] static Result<FieldView> make(const fields::Field& field, const volume::SemanticVolume& volume);
     FieldView(FieldView&&) = default;
     virtual ~FieldView() = default;
@@ -83,6 +83,7 @@ private:
     [[nodiscard]] std::optional<Vec3d> inFront(Vec3d index, Vec3d normal) const noexcept;
 
     const fields::Field* field_ = nullptr;
+    std::shared_ptr<const fields::Field> lengths_;  // of a field of vectors
     const volume::SemanticVolume* volume_ = nullptr;
     fields::FieldSampler sampler_;
     std::vector<char> isMedium_;          // by scalar

@@ -234,10 +234,24 @@ TEST(FieldPaint, WhatCannotShowAFieldSaysSo) {
         ASSERT_FALSE(refused);
         EXPECT_EQ(refused.error().code(), Code::BadArgument);
     }
-    fields::Field vectors = field;
+}
+
+TEST(FieldPaint, VectorsShowTheirLengths) {
+    const SemanticVolume volume = twoRooms();
+    const auto size = [](Vec3d p) { return 1 + p.x; };
+    const fields::Field lengths = fieldOf("air", size);
+    fields::Field vectors = lengths;
     vectors.head.components = 3;
-    vectors.values.resize(3 * field.values.size());
-    EXPECT_FALSE(painter.showField(&vectors));
+    vectors.values.clear();
+    for (const float part : {0.6f, 0.0f, -0.8f})
+        for (const float value : lengths.values) vectors.values.push_back(part * value);
+    const auto numbers = FieldView::make(lengths, volume), lengthsOfVectors = FieldView::make(vectors, volume);
+    ASSERT_TRUE(numbers && lengthsOfVectors);
+    EXPECT_EQ(lengthsOfVectors->head().components, 1);
+    for (double x = 0.3; x < 2; x += 0.1) {
+        const FieldView::Surface cap{2, {x, 1, 1}, {0, 0, 1}, true};
+        EXPECT_NEAR(lengthsOfVectors->valueAt(cap, 0), numbers->valueAt(cap, 0), 1e-5) << x;
+    }
 }
 
 TEST(FieldPaint, ComponentsShowTheirFigures) {

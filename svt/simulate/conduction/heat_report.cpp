@@ -228,6 +228,30 @@ fields::FieldHead temperatureHead(const volume::SemanticVolume& volume, const He
     return head;
 }
 
+std::string temperatureParameters(const SolvedHeat& solved, const HeatResult& result) {
+    return parametersOf(solved, result).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<float> temperatureValues(const SolvedHeat& solved) {
+    const auto across = static_cast<std::size_t>(solved.map.size.x);
+    const std::size_t layer = across * static_cast<std::size_t>(solved.map.size.y);
+    std::vector<float> values(layer * static_cast<std::size_t>(solved.map.size.z),
+                              std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t column = 0; column < layer; ++column) {
+        const auto i = static_cast<std::int32_t>(column % across), j = static_cast<std::int32_t>(column / across);
+        std::size_t r = solved.map.columnStart[column];
+        std::uint32_t begin = 0;
+        for (const Run& run : solved.volume.columns.column(i, j)) {
+            const RunPlace& place = solved.map.runs[r++];
+            if (place.kind == RunKind::Solid)
+                for (std::uint32_t k = begin; k < run.end; ++k)
+                    values[column + layer * k] = static_cast<float>(solved.celsius[place.number + k - begin]);
+            begin = run.end;
+        }
+    }
+    return values;
+}
+
 fields::Field temperatureField(const SolvedHeat& solved, const HeatResult& result) {
     fields::Field field;
     field.head = temperatureHead(solved.volume, solved.options);
@@ -237,22 +261,8 @@ fields::Field temperatureField(const SolvedHeat& solved, const HeatResult& resul
         high = std::max(high, room.celsius);
     }
     if (high - low > kFineRange) field.head.precision = 0.1;
-    field.head.parameters = parametersOf(solved, result).dump(-1, ' ', false, Json::error_handler_t::replace);
-    const auto across = static_cast<std::size_t>(solved.map.size.x);
-    const std::size_t layer = across * static_cast<std::size_t>(solved.map.size.y);
-    field.values.assign(layer * static_cast<std::size_t>(solved.map.size.z), std::numeric_limits<float>::quiet_NaN());
-    for (std::size_t column = 0; column < layer; ++column) {
-        const auto i = static_cast<std::int32_t>(column % across), j = static_cast<std::int32_t>(column / across);
-        std::size_t r = solved.map.columnStart[column];
-        std::uint32_t begin = 0;
-        for (const Run& run : solved.volume.columns.column(i, j)) {
-            const RunPlace& place = solved.map.runs[r++];
-            if (place.kind == RunKind::Solid)
-                for (std::uint32_t k = begin; k < run.end; ++k)
-                    field.values[column + layer * k] = static_cast<float>(solved.celsius[place.number + k - begin]);
-            begin = run.end;
-        }
-    }
+    field.head.parameters = temperatureParameters(solved, result);
+    field.values = temperatureValues(solved);
     return field;
 }
 

@@ -6,6 +6,7 @@
 #include <svt/simulate/conduction/opening_areas.hpp>
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace svt::simulate {
@@ -26,6 +27,12 @@ struct SolvedHeat {
 
 /// The head of the field, without parameters.
 [[nodiscard]] fields::FieldHead temperatureHead(const volume::SemanticVolume& volume, const HeatOptions& options);
+
+/// Everything that was assumed, as a JSON object.
+[[nodiscard]] std::string temperatureParameters(const SolvedHeat& solved, const HeatResult& result);
+
+/// The temperature at each voxel; NaN elsewhere than in solids. Memory: 4 bytes for each voxel.
+[[nodiscard]] std::vector<float> temperatureValues(const SolvedHeat& solved);
 
 /// The field of temperatures; `result` gives its parameters. Memory: 4 bytes for each voxel.
 [[nodiscard]] fields::Field temperatureField(const SolvedHeat& solved, const HeatResult& result);

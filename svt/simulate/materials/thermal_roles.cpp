@@ -54,14 +54,20 @@ bool isPassive(const Label& label) {
            (label.filling == volume::Filling::Surface && model::isBoundarySurface(label.className));
 }
 
-struct Conductivity {
+// A figure of a material, and where it is from.
+struct Figure {
     double value = 0;
     std::string source, detail;
 };
 
-// The equivalent conductivity of layers in series: "Beton 0.2 m; Putz 0.01 m". Nothing if one of them is unknown.
-std::optional<double> seriesConductivity(std::string_view layers) {
-    double thickness = 0, resistance = 0;
+// A layer or several in series.
+struct Series {
+    double conductivity = 0, heatCapacity = 0;
+};
+
+// The equivalent figures of layers in series: "Beton 0.2 m; Putz 0.01 m". Nothing if one of them is unknown.
+std::optional<Series> seriesOf(std::string_view layers) {
+    double thickness = 0, resistance = 0, capacity = 0;
     std::size_t count = 0;
     while (!layers.empty()) {
         std::string_view layer = layers.substr(0, layers.find(';'));
@@ -77,10 +83,11 @@ std::optional<double> seriesConductivity(std::string_view layers) {
         if (!d || !(*d > 0) || row == nullptr) return std::nullopt;
         thickness += *d;
         resistance += *d / row->conductivity;
+        capacity += *d * row->heatCapacity();
         ++count;
     }
     if (count == 0) return std::nullopt;
-    return thickness / resistance;
+    return Series{thickness / resistance, capacity / thickness};
 }
 
 class RoleFinder {
@@ -107,6 +114,7 @@ public:
                          "the volume has no rooms, so nothing is heated; build it from a model with "
                          "rooms (BuildingRoom, IfcSpace)");
         for (auto& [key, assumption] : assumed_) roles.assumed.push_back(std::move(assumption));
+        for (auto& [key, assumption] : capacities_) roles.capacities.push_back(std::move(assumption));
         report(roles, findings);
         return roles;
     }
@@ -146,6 +154,7 @@ private:
             role.conductivity = rule->conductivity;
             if (!(role.conductivity > 0)) role.role = Role::Blocked;
             assume(owner, {role.conductivity, "table", rule->query});
+            role.heatCapacity = assumeCapacity(owner, capacityOf(owner, rule));
         } else if (model::isFilling(label.className)) {
             role.role = Role::Opening;
             role.number = openingOf(owner);
@@ -153,12 +162,14 @@ private:
             role.role = Role::Ground;
             role.conductivity = kGroundConductivity;
             assume(owner, {kGroundConductivity, "word", "terrain"});
+            role.heatCapacity = assumeCapacity(owner, {kGroundCapacity, "word", "terrain"});
         } else if (isPassive(label)) {
             role.role = Role::Passive;
         } else {
-            const Conductivity known = conductivityOf(owner);
+            const Figure known = conductivityOf(owner);
             role.conductivity = known.value;
             assume(owner, known);
+            role.heatCapacity = assumeCapacity(owner, capacityOf(owner, nullptr));
         }
         return role;
     }
@@ -194,7 +205,7 @@ private:
         return at->second;
     }
 
-    Conductivity conductivityOf(std::uint32_t l) {
+    Figure conductivityOf(std::uint32_t l) {
         const Label& label = labels_[l];
         if (const auto stated = numberOf(label, "ThermalConductivity"); stated && *stated > 0)
             return {*stated, "model", "ThermalConductivity"};
@@ -209,7 +220,7 @@ private:
                 return {thickness_[l] / resistance, "transmittance", fmt::format("{} W/(m2 K)", *u)};
         }
         if (const std::string layers = textOf(label, "materialLayers"); !isLayer && !layers.empty())
-            if (const auto series = seriesConductivity(layers)) return {*series, "word", layers};
+            if (const auto series = seriesOf(layers)) return {series->conductivity, "word", layers};
         for (const std::string& name : {textOf(label, "material"), label.name}) {
             std::string_view word;
             if (const ThermalWord* row = findThermalWord(name, word))
@@ -218,9 +229,37 @@ private:
         return {kUnknownConductivity, "default", label.className};
     }
 
+    // J/(m3 K)
+    [[nodiscard]] Figure capacityOf(std::uint32_t l, const ThermalRule* rule) const {
+        const Label& label = labels_[l];
+        if (rule != nullptr && rule->density > 0 && rule->specificHeat > 0)
+            return {rule->density * rule->specificHeat, "table", rule->query};
+        const auto density = numberOf(label, "MassDensity"), heat = numberOf(label, "SpecificHeatCapacity");
+        if (density && heat && *density > 0 && *heat > 0)
+            return {*density * *heat, "model", "MassDensity, SpecificHeatCapacity"};
+        if (const std::string layers = textOf(label, "materialLayers"); textOf(label, "layer").empty())
+            if (const auto series = seriesOf(layers)) return {series->heatCapacity, "word", layers};
+        for (const std::string& name : {textOf(label, "material"), label.name}) {
+            std::string_view word;
+            if (const ThermalWord* row = findThermalWord(name, word))
+                return {row->heatCapacity(), "word", std::string(word)};
+        }
+        return {kUnknownCapacity, "default", label.className};
+    }
+
+    double assumeCapacity(std::uint32_t l, const Figure& known) {
+        if (labels_[l].voxels == 0) return known.value;
+        CapacityAssumption& assumption = capacities_[{known.source, known.detail, known.value}];
+        assumption.source = known.source;
+        assumption.detail = known.detail;
+        assumption.heatCapacity = known.value;
+        if (assumption.labels.empty() || assumption.labels.back() != l) assumption.labels.push_back(l);
+        return known.value;
+    }
+
     static bool isInterior(const Label& label) { return textOf(label, "IsExternal") == "false"; }
 
-    void assume(std::uint32_t l, const Conductivity& known) {
+    void assume(std::uint32_t l, const Figure& known) {
         if (labels_[l].voxels == 0) return;
         ThermalAssumption& assumption = assumed_[{known.source, known.detail, known.value}];
         assumption.source = known.source;
@@ -250,6 +289,7 @@ private:
     std::vector<double> thickness_;  // empty: not computed yet
     std::map<std::uint32_t, std::uint32_t> zoneOfLabel_, openingOfLabel_;
     std::map<std::tuple<std::string, std::string, double>, ThermalAssumption> assumed_;
+    std::map<std::tuple<std::string, std::string, double>, CapacityAssumption> capacities_;
     ThermalRoles* roles_ = nullptr;
 };
 

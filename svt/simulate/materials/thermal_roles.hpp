@@ -24,6 +24,7 @@ struct ScalarRole {
     std::uint32_t number = 0;
     std::uint32_t label = volume::kNoLabel;  ///< a phase of an object has the label of the object
     double conductivity = 0;                 ///< W/(m K), of Solid and Ground
+    double heatCapacity = 0;                 ///< J/(m3 K), of Solid and Ground
 };
 
 struct ThermalRoles {
@@ -31,6 +32,7 @@ struct ThermalRoles {
     std::vector<ZoneHeat> zones;        ///< 0: outside air; then the rooms, ascending by label
     std::vector<OpeningHeat> openings;  ///< ascending by label
     std::vector<ThermalAssumption> assumed;
+    std::vector<CapacityAssumption> capacities;
 };
 
 /// \return the roles; BadQuery, NothingSelected of a query; BadArgument without rooms

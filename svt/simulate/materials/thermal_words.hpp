@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Thermal conductivities of materials by words of their names, and of components by their class.
+/// Thermal conductivities and heat capacities of materials by words of their names, and of components by their class.
 
 #include <span>
 #include <string_view>
@@ -13,6 +13,10 @@ struct ThermalWord {
     /// entry: also within a word, as in German compounds.
     std::string_view words;
     double conductivity;  ///< W/(m K)
+    double density;       ///< kg/m3
+    double specificHeat;  ///< J/(kg K)
+    /// J/(m3 K)
+    [[nodiscard]] constexpr double heatCapacity() const noexcept { return density * specificHeat; }
 };
 
 /// The rows, in the order in which they are tried.
@@ -25,6 +29,9 @@ struct ThermalWord {
 /// W/(m K) assumed for a component of unknown material.
 inline constexpr double kUnknownConductivity = 1.0;
 inline constexpr double kGroundConductivity = 2.0;   ///< ISO 13370, sand and gravel
+inline constexpr double kUnknownCapacity = 1.5e6;    ///< J/(m3 K) assumed for a component of unknown material
+inline constexpr double kGroundCapacity = 2.0e6;     ///< J/(m3 K), ISO 13370, sand and gravel
+inline constexpr double kAirCapacity = 1.2e3;        ///< J/(m3 K), of cavities
 inline constexpr double kWindowTransmittance = 1.3;  ///< W/(m2 K), assumed
 inline constexpr double kDoorTransmittance = 1.8;    ///< W/(m2 K), assumed
 

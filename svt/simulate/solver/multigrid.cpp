@@ -211,8 +211,14 @@ std::span<const float> Multigrid::cycle() {
 
 SolveReport solveEquations(const CellEquations& equations, std::span<double> b, std::span<double> x, double tolerance,
                            int mostIterations, int threads, const Progress* progress) {
-    const std::uint32_t count = equations.count;
     Multigrid multigrid(equations, threads);
+    return solveEquations(equations, multigrid, b, x, tolerance, mostIterations, threads, progress);
+}
+
+SolveReport solveEquations(const CellEquations& equations, Multigrid& multigrid, std::span<double> b,
+                           std::span<double> x, double tolerance, int mostIterations, int threads,
+                           const Progress* progress) {
+    const std::uint32_t count = equations.count;
     const auto norm = [&](std::span<const double> v) {
         return std::sqrt(sumOverCells(count, threads, [&](std::size_t u) { return v[u] * v[u]; }));
     };

@@ -55,10 +55,15 @@ struct SolveReport {
 };
 
 /// Solves the equations by conjugate gradients with a multigrid cycle as preconditioner.
+/// \param multigrid of the same equations; for several right sides of one matrix
 /// \param b         right side, count + 2 entries; overwritten
 /// \param x         in: first guess; out: the solution; count + 2 entries, the first and the last 0
 /// \param tolerance of the relative residual
 /// Cost: O(cells) an iteration; the number of iterations grows slowly. Memory: 100 bytes a cell with the equations and b, x.
+[[nodiscard]] SolveReport solveEquations(const CellEquations& equations, Multigrid& multigrid, std::span<double> b,
+                                         std::span<double> x, double tolerance, int mostIterations, int threads,
+                                         const Progress* progress = nullptr);
+/// The same, with its own multigrid.
 [[nodiscard]] SolveReport solveEquations(const CellEquations& equations, std::span<double> b, std::span<double> x,
                                          double tolerance, int mostIterations, int threads,
                                          const Progress* progress = nullptr);

@@ -39,6 +39,7 @@ public:
         inLayer("Outlines", [&] { addBorders(); });
         if (!drawing_.doors.empty()) inLayer("Doors", [&] { addDoors(); });
         if (options_.field.isShown()) inLayer("Isolines", [&] { addIsolines(); });
+        if (options_.field.isShown()) inLayer("Arrows", [&] { addArrows(); });
         if (options_.marks == nullptr)
             inLayer("Names", [&] { addNames(); });
         else
@@ -109,6 +110,15 @@ private:
             at.y += 0.35 * label.size;
             canvas_.text({at, label.size, label.text, TextAnchor::Middle, true});
         }
+    }
+
+    void addArrows() {
+        std::vector<PaperPath> paths;
+        for (const drawing::FieldArrow& arrow : options_.field.field->arrows) {
+            paths.push_back({place_.onPaper(arrow.from), place_.onPaper(arrow.to)});
+            paths.push_back(pathOf(arrowHead(arrow), false));
+        }
+        if (!paths.empty()) canvas_.stroke(paths, {widths_.beyond});
     }
 
     void addBeyond(drawing::BeyondKind kind) {

@@ -363,7 +363,18 @@ private:
         out_.add({{75, 0}, {76, 1}, {98, 0}});
     }
 
-    // The bands of a field, its lines with their values (1040), and texts along them.
+    // \param isClosed  the last point repeats the first
+    void addFieldLine(const std::vector<PlanePoint>& points, bool isClosed, const char* layer, double value) {
+        const std::size_t count = points.size() - (isClosed ? 1 : 0);
+        begin("LWPOLYLINE", file_.layer(layer, 7, "Continuous", kBeyondWidth), "AcDbPolyline");
+        out_.add({{90, static_cast<int>(count)}, {70, isClosed ? 1 : 0}, {43, 0}});
+        if (place_.isWorld()) out_.add({{38, place_.elevation()}});
+        for (std::size_t n = 0; n < count; ++n) out_.point(10, place_.flat(points[n]));
+        addExtrusion();
+        out_.add({{1001, "SVT"}, {1040, value}});
+    }
+
+    // The bands of a field, its lines and arrows with their values (1040), and texts along lines.
     void addField() {
         const drawing::FieldDrawing& field = *look_.field;
         for (const drawing::SectionPolygon& polygon : field.missing)
@@ -373,13 +384,12 @@ private:
                 addSolid(polygon, file_.layer(bandLayerOf(band), autocadColor(bandColor(look_, band))));
         for (const drawing::FieldIsoline& line : field.isolines) {
             const bool isClosed = line.points.size() > 3 && line.points.front() == line.points.back();
-            const std::size_t count = line.points.size() - (isClosed ? 1 : 0);
-            begin("LWPOLYLINE", file_.layer("FIELD_LINES", 7, "Continuous", kBeyondWidth), "AcDbPolyline");
-            out_.add({{90, static_cast<int>(count)}, {70, isClosed ? 1 : 0}, {43, 0}});
-            if (place_.isWorld()) out_.add({{38, place_.elevation()}});
-            for (std::size_t n = 0; n < count; ++n) out_.point(10, place_.flat(line.points[n]));
-            addExtrusion();
-            out_.add({{1001, "SVT"}, {1040, line.value}});
+            addFieldLine(line.points, isClosed, "FIELD_LINES", line.value);
+        }
+        for (const drawing::FieldArrow& arrow : field.arrows) {
+            const std::vector<PlanePoint> head = arrowHead(arrow);
+            addFieldLine({arrow.from, arrow.to, head[0]}, false, "FIELD_ARROWS", arrow.value);
+            addFieldLine({arrow.to, head[2]}, false, "FIELD_ARROWS", arrow.value);
         }
         const std::string texts = file_.layer("FIELD_TEXT", 7);
         for (const FieldLabel& label : placeFieldLabels(field, kDimensionScale))

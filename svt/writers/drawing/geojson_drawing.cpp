@@ -119,7 +119,7 @@ private:
                              jsonMember("unit", field.unit), shortNumber(field.seconds, 6), properties, geometry);
     }
 
-    // A feature for the places without a value, for each band, and for all lines of a value.
+    // A feature for the places without a value, for each band, for all lines of a value, and for each arrow.
     void addField() {
         const drawing::FieldDrawing& field = *look_.field;
         if (!field.missing.empty()) addFieldFeature("\"missing\":true", multiPolygon(field.missing));
@@ -134,6 +134,8 @@ private:
                 lines.push_back(field.isolines[n].points);
             addFieldFeature(fmt::format("\"value\":{:.9g}", value), multiLine(lines));
         }
+        for (const drawing::FieldArrow& arrow : field.arrows)
+            addFieldFeature(fmt::format("\"arrow\":{:.6g}", arrow.value), multiLine({{arrow.from, arrow.to}}));
     }
 
     const drawing::SectionDrawing& drawing_;

@@ -44,6 +44,7 @@ public:
         addLines();
         addDoors();
         if (look_.isShown()) addIsolines();
+        if (look_.isShown()) addArrows();
         addNames();
         addDimensions();
         if (hasRevisions(drawing_)) addRevisions();
@@ -105,10 +106,13 @@ private:
                 ".above { stroke-linecap: butt; stroke-dasharray: 4.32 0.54 0.18 0.54 0.18 0.54 }\n";
         if (look_.isShown())
             svg_ +=
-                ".isoline { fill: none; stroke: #000; stroke-width: 0.18; stroke-linecap: round; stroke-linejoin: "
+                ".isoline { fill: none; stroke: #000; stroke-width: 0.18; stroke-linecap: round; "
+                "stroke-linejoin: "
                 "round }\n"
                 ".values { text-anchor: middle }\n"
                 ".values text { paint-order: stroke; stroke: #fff; stroke-width: 0.5; stroke-linejoin: round }\n";
+        if (look_.isShown() && !look_.field->arrows.empty())
+            svg_ += ".arrow { fill: none; stroke: #000; stroke-width: 0.18; stroke-linecap: round }\n";
         if (hasDimensions(drawing_))
             svg_ +=
                 ".dimensions { text-anchor: middle }\n"
@@ -224,6 +228,19 @@ private:
             const std::string turn = fmt::format(" transform=\"rotate({} {} {})\"", shortNumber(-label.degrees, 2),
                                                  shortNumber(x, 3), shortNumber(y, 3));
             addText(x, y + 0.35 * label.size, label.size, label.text, turn.c_str());
+        }
+        svg_ += "</g>\n";
+    }
+
+    // The arrows of a field: a path each.
+    void addArrows() {
+        if (look_.field->arrows.empty()) return;
+        svg_ += layer("arrows", "Arrows");
+        for (const drawing::FieldArrow& arrow : look_.field->arrows) {
+            svg_ += fmt::format("<path class=\"arrow\" data-value=\"{:.6g}\" d=\"", arrow.value);
+            addLine({arrow.from, arrow.to});
+            addLine(arrowHead(arrow));
+            svg_ += "\"/>\n";
         }
         svg_ += "</g>\n";
     }

@@ -127,8 +127,8 @@ std::vector<FieldLabel> placeFieldLabels(const drawing::FieldDrawing& field, dou
         for (std::size_t n = 0; n + 1 < line.points.size(); ++n) length += distance(line.points[n], line.points[n + 1]);
         if (!(length > kLeastLine * width)) continue;
         const double every = kEvery / millimetres;
-        const double count = std::max(1.0, std::floor(length / every));
-        for (double n = 0; n < count; n += 1) {
+        const int count = static_cast<int>(std::clamp(std::floor(length / every), 1.0, 1e6));
+        for (int n = 0; n < count; ++n) {
             const Spot spot = spotAt(line.points, length * (n + 0.5) / count, width / 2);
             const double radius = width / 2 + label.size / millimetres / 2;
             const bool isFree = std::none_of(taken.begin(), taken.end(), [&](const Disc& disc) {
@@ -144,12 +144,21 @@ std::vector<FieldLabel> placeFieldLabels(const drawing::FieldDrawing& field, dou
     return labels;
 }
 
+std::vector<PlanePoint> arrowHead(const drawing::FieldArrow& arrow) {
+    constexpr double kBack = 0.3, kAside = 0.14;  // of the arrow's length
+    const double u = arrow.to.u - arrow.from.u, v = arrow.to.v - arrow.from.v;
+    const PlanePoint back{arrow.to.u - kBack * u, arrow.to.v - kBack * v};
+    return {{back.u - kAside * v, back.v + kAside * u}, arrow.to, {back.u + kAside * v, back.v - kAside * u}};
+}
+
 FieldLegend makeFieldLegend(const FieldLook& look, double left, double top, double width) {
     const drawing::FieldDrawing& field = *look.field;
     FieldLegend legend;
     std::string title = field.title;
     if (field.isolineStep > 0)
         title += fmt::format(", lines every {:.6g}{}{}", field.isolineStep, field.unit.empty() ? "" : " ", field.unit);
+    if (!field.arrows.empty())
+        title += fmt::format(", longest arrow {:.3g}{}{}", field.high, field.unit.empty() ? "" : " ", field.unit);
     legend.texts.push_back({left, top + 2.5, 2.5, title, false});
     const double y = top + 4, bar = std::min(kMostBar, width - kNoValueWidth - 6);
     const double range = field.high - field.low;

@@ -21,6 +21,9 @@ struct FieldLabel {
 /// \param millimetres  on paper per metre
 [[nodiscard]] std::vector<FieldLabel> placeFieldLabels(const drawing::FieldDrawing& field, double millimetres);
 
+/// The head of an arrow: three points around its end.
+[[nodiscard]] std::vector<drawing::PlanePoint> arrowHead(const drawing::FieldArrow& arrow);
+
 /// Millimetres on paper, from the upper left corner of the page.
 struct FieldLegend {
     struct Box {

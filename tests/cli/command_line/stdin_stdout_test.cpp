@@ -108,6 +108,7 @@ const std::vector<Written>& writtenByCommands() {
         {"field add two.svt co2.csv --places places.csv --unit [ppm] -o OUT", ".svt", ""},
         {"field remove field.svt co2 -o OUT", ".svt", ""},
         {"simulate heat tower.svt --leaky -q -o OUT", ".svt", ""},
+        {"simulate spread air.svt co2 -q -o OUT", ".svt", ""},
         {"field export field.svt co2 -o OUT", ".csv", "csv"},
         {"field export field.svt co2 -o OUT", ".json", "json"},
         {"field export field.svt co2 -o OUT", ".parquet", "objectparquet"},
@@ -142,6 +143,9 @@ TEST_F(Dash, IsStdoutForEveryCommandWithOneOutput) {
                 "svt simulate heat tower.svt --leaky -q -o warm.svt && svt sample house -o small.ifc");
     writeText(folder / "co2.csv", "time,sensor,value\n0,s1,400\n900,s1,500\n");
     writeText(folder / "places.csv", "name,x,y,z\ns1,500002,5400003,101\n");
+    writeText(folder / "rooms.csv", "name,room\ns1,tower_S00_common\n");
+    runLineWell(folder.path(),
+                "svt field add tower.svt co2.csv --places rooms.csv --unit [ppm] --name co2 -o air.svt -q");
     runLineWell(
         folder.path(),
         "svt field add two.svt co2.csv --places places.csv --unit [ppm] --medium all --name co2 -o field.svt -q");

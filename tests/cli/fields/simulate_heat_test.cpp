@@ -67,6 +67,35 @@ TEST_F(SimulateHeat, TemperaturesAndMaterialsAreThoseOfTheOptions) {
     EXPECT_GT(films["outside"]["watts"], plain["outside"]["watts"]);
 }
 
+TEST_F(SimulateHeat, OverTimeHasTheDocumentedKeys) {
+    writeText(folder / "frost.csv", "time,temperature\n2026-01-05T00:00,5\n2026-01-05T06:00,-10\n");
+    const json report = simulate({"--hours", "6", "--step", "60", "--every", "3", "--weather", "frost.csv"});
+    EXPECT_EQ(keysOf(report),
+              (std::vector<std::string>{"assumed", "balance", "capacity", "cells", "heatCapacities", "iterations",
+                                        "leaks", "planes", "received", "steps", "stored", "times", "undetermined"}));
+    ASSERT_EQ(report["times"].size(), 3u);
+    EXPECT_EQ(report["steps"], 6);
+    EXPECT_LT(report["balance"], 1e-5);
+    EXPECT_LT(report["stored"], 0) << "walls cool down";
+    const json& last = report["times"][2];
+    EXPECT_EQ(keysOf(last), (std::vector<std::string>{"outside", "rooms", "seconds"}));
+    EXPECT_EQ(last["seconds"], 21600);
+    EXPECT_EQ(last["outside"]["temperature"], -10);
+    EXPECT_EQ(last["rooms"].size(), 14u);
+    EXPECT_EQ(keysOf(last["rooms"][0]), keysOf(simulate()["rooms"][0]));
+    const CommandResult result = runSvt(folder.path(), {"simulate", "heat", "house.svt", "--hours", "6", "--every", "3",
+                                                        "--weather", "frost.csv", "-o", "frost.svt"});
+    EXPECT_EQ(result.exitCode, 0) << result.toString();
+    EXPECT_NE(result.err.find("the times of the weather have no zone; they count as UTC"), std::string::npos);
+    EXPECT_NE(result.err.find("57 components have a heat capacity by a word"), std::string::npos) << result.toString();
+    const json field = runSvtForJson(folder.path(), {"field-list", "frost.svt", "--json"})["fields"][0];
+    EXPECT_EQ(field["times"], json({0, 10800, 21600}));
+    EXPECT_EQ(field["epoch"], "2026-01-05T00:00:00Z");
+    expectError({"--step", "5"}, kUsage, "give --hours as well");
+    expectError({"--hours", "12", "--weather", "frost.csv"}, kUsage, "the weather ends after 6 h");
+    expectError({"--hours", "1", "--step", "7"}, kUsage, "whole number of steps");
+}
+
 TEST_F(SimulateHeat, WritesTheFieldIntoACopy) {
     const std::string summary = runSvtWell(folder.path(), {"simulate", "heat", "house.svt", "-o", "warm.svt"});
     EXPECT_TRUE(summary.starts_with("warm.svt: field 'temperature', 14 rooms, ")) << summary;

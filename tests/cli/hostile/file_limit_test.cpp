@@ -70,6 +70,7 @@ const LimitedOutput kLimitedOutputs[] = {
     {"--output", {"field-add", "two.svt", "co2.csv", "--places", "places.csv", "--unit", "[ppm]", "-o", "o.svt"}},
     {"--output", {"field-remove", "field.svt", "co2", "-o", "o.svt"}},
     {"--output", {"simulate-heat", "tower.svt", "--leaky", "-o", "o.svt"}},
+    {"--output", {"simulate-spread", "air.svt", "co2", "-o", "o.svt"}},
     {"--output", {"field-export", "field.svt", "co2", "-o", "o.csv"}},
     {"--output", {"field-export", "field.svt", "co2", "-o", "o.json"}},
     {"--output", {"field-export", "field.svt", "co2", "-o", "o.parquet"}},
@@ -108,6 +109,9 @@ protected:
         writeText(folder / "places.csv", "name,x,y,z\ns1,500002,5400003,101\n");
         runSvtWell(folder.path(), {"field-add", "two.svt", "co2.csv", "--places", "places.csv", "--unit", "[ppm]",
                                    "--medium", "all", "--name", "co2", "-o", "field.svt"});
+        writeText(folder / "rooms.csv", "name,room\ns1,tower_S00_common\n");
+        runSvtWell(folder.path(), {"field-add", "tower.svt", "co2.csv", "--places", "rooms.csv", "--unit", "[ppm]",
+                                   "--name", "co2", "-o", "air.svt"});
     }
 
     // At a limit of a few bytes and at one that the largest file reaches at its half, the command fails and leaves no output; of

@@ -1,4 +1,4 @@
-#include <svt/field_readers/sensors/iso_time.hpp>
+#include <svt/record/times.hpp>
 
 #include <svt/core/text.hpp>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace svt::field_readers {
+namespace svt::record {
 namespace {
 
 constexpr std::int64_t kDaySeconds = 86400;
@@ -113,4 +113,27 @@ std::string isoText(double seconds) {
                        rest % 60, milliseconds > 0 ? fmt::format(".{:03}", milliseconds) : "");
 }
 
-}  // namespace svt::field_readers
+bool TimeReader::read(std::string_view text, std::optional<double> number, double& to, std::string& fault) {
+    const auto date = number ? std::nullopt : parseIsoTime(text);
+    if (!number && !date) {
+        fault = fmt::format("'{}' is not a time; seconds or an ISO 8601 time such as 2026-01-05T08:15:00Z are expected",
+                            text);
+        return false;
+    }
+    const bool hasNoZone = date && !date->hasZone;
+    if (!isFirst_ && date.has_value() != isDated_) {
+        fault = fmt::format("'{}' is {}, but the first time is not", text, date ? "a date" : "a number of seconds");
+        return false;
+    }
+    if (!isFirst_ && hasNoZone != hasNoZone_) {
+        fault = fmt::format("'{}' {} a time zone, unlike the first time", text, hasNoZone ? "lacks" : "has");
+        return false;
+    }
+    isFirst_ = false;
+    isDated_ = date.has_value();
+    hasNoZone_ = hasNoZone;
+    to = number ? *number : date->seconds;
+    return true;
+}
+
+}  // namespace svt::record

@@ -12,6 +12,7 @@
 #include <svt/fields/svt_fields.hpp>
 #include <svt/model/query.hpp>
 #include <svt/pipeline/labels.hpp>
+#include <svt/simulate/heat_over_time.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
@@ -28,6 +29,8 @@ struct HeatArguments {
     double rsi = 0.13, rsiUp = 0.10, rsiDown = 0.17, rse = 0.04;
     std::string name = "temperature";
     bool isLeaky = false, json = false, csv = false;
+    std::optional<double> hours, step, every, start;
+    std::filesystem::path weather;
     pipeline::BuildOptions build;
 };
 
@@ -51,6 +54,28 @@ Result<simulate::HeatOptions> optionsOf(const HeatArguments& arguments) {
     return options;
 }
 
+// The options of time; none without --hours.
+Result<std::optional<simulate::TimeOptions>> timesOf(const HeatArguments& arguments) {
+    if (!arguments.hours) {
+        if (arguments.step || arguments.every || arguments.start || !arguments.weather.empty())
+            return Error(Code::BadArgument,
+                         "--step, --every, --start and --weather are for temperatures over time; give --hours as well");
+        return std::optional<simulate::TimeOptions>();
+    }
+    simulate::TimeOptions time;
+    time.hours = *arguments.hours;
+    time.step = 60 * arguments.step.value_or(15);
+    time.every = 3600 * arguments.every.value_or(1);
+    time.start = arguments.start;
+    if (!arguments.weather.empty()) {
+        SVT_TRY(bytes, FileBytes::read(arguments.weather));
+        SVT_TRY(weather, simulate::parseWeather(bytes->text(), arguments.weather.string()));
+        time.weather = std::move(*weather);
+        if (time.weather.hasNoZone) note("the times of the weather have no zone; they count as UTC");
+    }
+    return std::optional(std::move(time));
+}
+
 Result<void> writeField(const HeatArguments& arguments, const volume::SemanticVolume& volume,
                         const fields::Field& field) {
     std::filesystem::path source = arguments.input;
@@ -62,11 +87,51 @@ Result<void> writeField(const HeatArguments& arguments, const volume::SemanticVo
     return {};
 }
 
+Result<int> runSteady(const HeatArguments& arguments, const volume::SemanticVolume& volume,
+                      const simulate::HeatOptions& options, std::optional<TerminalProgress>& progress) {
+    Diagnostics findings;
+    auto result = simulate::simulateHeat(volume, options, findings);
+    progress.reset();
+    printVolumeFindings(findings, volume.source, arguments.input);
+    if (!result) return result.error();
+    if (!arguments.output.empty()) SVT_DO(writeField(arguments, volume, result->temperature));
+    for (const std::string& text : heatNotes(volume, *result)) note(text);
+    if (arguments.json)
+        print(heatJson(volume, *result));
+    else if (arguments.csv || arguments.output.empty())
+        print(heatTable(volume, *result), arguments.csv ? TableFormat::Csv : TableFormat::Text);
+    if (!arguments.output.empty())
+        summarize(fmt::format("{}: field '{}', {} rooms, {:.0f} W to outside air", arguments.output.string(),
+                              arguments.name, result->rooms.size(), -result->outside.watts));
+    return kDone;
+}
+
+Result<int> runOverTime(const HeatArguments& arguments, const volume::SemanticVolume& volume,
+                        const simulate::HeatOptions& options, const simulate::TimeOptions& time,
+                        std::optional<TerminalProgress>& progress) {
+    Diagnostics findings;
+    auto result = simulate::simulateHeatOverTime(volume, options, time, findings);
+    progress.reset();
+    printVolumeFindings(findings, volume.source, arguments.input);
+    if (!result) return result.error();
+    if (!arguments.output.empty()) SVT_DO(writeField(arguments, volume, result->temperature));
+    for (const std::string& text : heatNotes(*result)) note(text);
+    if (arguments.json)
+        print(heatJson(volume, *result));
+    else if (arguments.csv || arguments.output.empty())
+        print(heatTable(volume, *result), arguments.csv ? TableFormat::Csv : TableFormat::Text);
+    if (!arguments.output.empty())
+        summarize(fmt::format("{}: field '{}', {} rooms, {} times from 0 to {:g} h", arguments.output.string(),
+                              arguments.name, result->times.front().rooms.size(), result->times.size(), time.hours));
+    return kDone;
+}
+
 Result<int> runHeat(const HeatArguments& arguments) {
     if (isCity(arguments.input))
         return Error(Code::BadArgument,
                      "'" + arguments.input.string() + "' is a city; simulate parts of it (svt city extract)");
     SVT_TRY(options, optionsOf(arguments));
+    SVT_TRY(time, timesOf(arguments));
     std::optional<TerminalProgress> progress(std::in_place);
     pipeline::BuildOptions build = arguments.build;
     // The faces of the model are planes of the volume; the file of -o keeps the meshes.
@@ -74,21 +139,8 @@ Result<int> runHeat(const HeatArguments& arguments) {
     SVT_TRY(volume, loadVolume(arguments.input, build, progress->get(), false));
     options->progress = progress->get();
     options->priority = pipeline::labelsByPriority(volume->labels);
-    Diagnostics findings;
-    auto result = simulate::simulateHeat(*volume, *options, findings);
-    progress.reset();
-    printVolumeFindings(findings, volume->source, arguments.input);
-    if (!result) return result.error();
-    if (!arguments.output.empty()) SVT_DO(writeField(arguments, *volume, result->temperature));
-    for (const std::string& text : heatNotes(*volume, *result)) note(text);
-    if (arguments.json)
-        print(heatJson(*volume, *result));
-    else if (arguments.csv || arguments.output.empty())
-        print(heatTable(*volume, *result), arguments.csv ? TableFormat::Csv : TableFormat::Text);
-    if (!arguments.output.empty())
-        summarize(fmt::format("{}: field '{}', {} rooms, {:.0f} W to outside air", arguments.output.string(),
-                              arguments.name, result->rooms.size(), -result->outside.watts));
-    return kDone;
+    return *time ? runOverTime(arguments, *volume, *options, **time, progress)
+                 : runSteady(arguments, *volume, *options, progress);
 }
 
 Members<HeatArguments> membersOf(const HeatArguments*) noexcept {
@@ -113,6 +165,24 @@ Members<HeatArguments> membersOf(const HeatArguments*) noexcept {
         member<&All::materials>("--materials",
                                 "conductivities: a table with the columns query, conductivity, density, specificHeat",
                                 {.value = "T.csv", .group = "Materials", .file = FileUse::OtherInput}),
+        member<&All::hours>(
+            "--hours", "compute temperatures over this time, with the heat that components store",
+            {.unit = "hours", .least = 0, .most = 1e6, .otherwise = "the steady state", .group = "Time"}),
+        member<&All::weather>("--weather", "temperatures of outside air: a table with the columns time and temperature",
+                              {.value = "W.csv",
+                               .otherwise = "the temperature of --outside",
+                               .group = "Time",
+                               .file = FileUse::OtherInput}),
+        member<&All::start>("--start", "temperature of all components at first",
+                            {.unit = "degrees Celsius",
+                             .least = -273.15,
+                             .most = 5000,
+                             .otherwise = "the steady state at the first temperature of outside air",
+                             .group = "Time"}),
+        member<&All::step>("--step", "length of a step of time",
+                           {.unit = "minutes", .least = 0.001, .most = 1e6, .otherwise = "15", .group = "Time"}),
+        member<&All::every>("--every", "time between results, a whole number of steps",
+                            {.unit = "hours", .least = 0.0001, .most = 1e6, .otherwise = "1", .group = "Time"}),
         member<&All::output>("-o,--output", "write the volume with the field of temperatures",
                              {.value = "F.svt", .group = "Output", .file = FileUse::Output, .formats = "svt"}),
         member<&All::name>("--name", "name of the field", {.value = "NAME", .group = "Output"}),
@@ -127,7 +197,7 @@ Members<HeatArguments> membersOf(const HeatArguments*) noexcept {
 
 }  // namespace
 
-extern const CommandText kSimulateHeatCommand = commandOf<HeatArguments, runHeat>(
-    "simulate-heat", "Compute steady temperatures of walls, and the heat that rooms lose");
+extern const CommandText kSimulateHeatCommand =
+    commandOf<HeatArguments, runHeat>("simulate-heat", "Compute temperatures of walls, and the heat that rooms lose");
 
 }  // namespace svt::cli
