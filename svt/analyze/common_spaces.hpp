@@ -31,7 +31,7 @@ public:
     CommonSpaces& operator=(const CommonSpaces&) = delete;
 
     /// The common space of two labels; nothing if one of them has no closed mesh, or if the work does not suffice.
-    /// Cost: see commonVolume() of overlaps/common_volume.hpp: pairs of triangles whose extents overlap.
+    /// Cost: see plane::commonVolume() of plane/common_volume.hpp: pairs of triangles whose extents overlap.
     [[nodiscard]] std::optional<CommonSpace> of(std::uint32_t a, std::uint32_t b);
 
     /// All pairs of these labels with common space beyond its bound, ordered by (a, b).

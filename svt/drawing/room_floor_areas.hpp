@@ -10,7 +10,7 @@
 
 namespace svt::drawing {
 
-/// m2 by label: the faces of a room's closed mesh that look down, seen from above. Furniture, and other parts that
+/// m2 by label: the faces of a room's closed mesh that look down, seen from above; faces above each other count once. Furniture, and other parts that
 /// claim space of the room, reduce nothing. Empty for features that are not rooms, without closed mesh, or lower than
 /// 1.5 m.
 /// Cost: O(triangles).

@@ -337,8 +337,8 @@ std::vector<std::string> TakeOffTotals::notes(bool hasGross) const {
     const Sums& sums = all_->total;
     if (sums.unknown[kNet] > 0)
         notes.push_back(
-            fmt::format("the net volume of {} of {} objects is unknown: they are surfaces, or too small for "
-                        "the voxels; sums exclude them",
+            fmt::format("the net volume of {} of {} objects is unknown: they are surfaces, were read in part, "
+                        "or are too small for the voxels; sums exclude them",
                         sums.unknown[kNet], sums.objects));
     if (const std::size_t unknown = sums.unknown[kGross] - std::min(sums.unknown[kGross], sums.unknown[kNet]);
         unknown > 0 && hasGross)

@@ -74,7 +74,8 @@ struct ObjectMesh {
     std::uint32_t joinedEdges = 0;   ///< edges that had no partner and were joined over gaps of up to 25 cm
     std::uint32_t bridgedLoops = 0;  ///< pairs of loops of open edges with a strip of faces between them
     std::vector<Cap> caps;
-    double volume = 0;          ///< m3, of the closed mesh; 0 if open
+    double volume = 0;          ///< m3, of the closed mesh; 0: open or unknown; common space of its solids counts once
+    bool isVolumeKnown = true;  ///< false: three of its solids overlap each other
     double enclosedVolume = 0;  ///< m3: volume, and of an Open mesh an estimate, its holes closed by fans
     double area = 0;            ///< m2
     bool isAssembled = false;   ///< built from the boundary surfaces of the feature, because it has no solid of its own

@@ -6,6 +6,12 @@
 
 namespace svt::model {
 
+bool isReadInPart(std::span<const Attribute> attributes) noexcept {
+    for (const Attribute& attribute : attributes)
+        if (attribute.name == kReadInPartAttribute) return true;
+    return false;
+}
+
 FeatureIndex BuildingModel::addFeature(Feature feature, FeatureIndex parent) {
     const auto index = static_cast<FeatureIndex>(features.size());
     feature.parent = parent;

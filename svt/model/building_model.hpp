@@ -9,11 +9,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace svt::model {
+
+/// The attribute of a feature whose shape was read in part. It names the missing parts. Quantities are unknown.
+inline constexpr std::string_view kReadInPartAttribute = "readInPart";
+[[nodiscard]] bool isReadInPart(std::span<const Attribute> attributes) noexcept;
 
 using FeatureIndex = std::uint32_t;  ///< into BuildingModel::features
 using PolygonIndex = std::uint32_t;  ///< into BuildingModel::polygons

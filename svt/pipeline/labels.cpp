@@ -40,10 +40,35 @@ std::uint32_t bodyOf(const volume::LabelTable& table, const std::vector<std::uin
     return voxelize::kNoBody;
 }
 
+// Boundary surfaces of levels of detail that are not used: a file may have surfaces of its own for each level. They have no
+// mesh, and neither do the surfaces below them.
+std::vector<char> surfacesOfOtherLods(const model::BuildingModel& model, const mesh::MeshSet& meshes) {
+    constexpr double kNoMesh = -2;
+    std::vector<double> lodOf(model.features.size(), kNoMesh);
+    for (const mesh::ObjectMesh& object : meshes.objects) lodOf[object.feature] = object.lod;
+    std::vector<char> isLeftOut(model.features.size(), 0);
+    const std::vector<FeatureIndex> order = model.treeOrder();
+    for (std::size_t n = order.size(); n-- > 0;) {
+        const model::Feature& feature = model.features[order[n]];
+        if (!model::isBoundarySurface(feature.className) || lodOf[order[n]] != kNoMesh || feature.geometries.empty() ||
+            feature.parent == model::kNoFeature || lodOf[feature.parent] == kNoMesh)
+            continue;
+        const bool hasUsed = std::any_of(feature.geometries.begin(), feature.geometries.end(),
+                                         [&](const auto& geometry) { return geometry.lod == lodOf[feature.parent]; });
+        const bool hasChild = std::any_of(feature.children.begin(), feature.children.end(),
+                                          [&](FeatureIndex child) { return isLeftOut[child] == 0; });
+        if (!hasUsed && !hasChild) isLeftOut[order[n]] = 1;
+    }
+    return isLeftOut;
+}
+
 // Labels in tree order, without scalars, and the label of each feature.
-std::vector<std::uint32_t> numberFeatures(const model::BuildingModel& model, volume::LabelTable& table) {
+std::vector<std::uint32_t> numberFeatures(const model::BuildingModel& model, const mesh::MeshSet& meshes,
+                                          volume::LabelTable& table) {
     std::vector<std::uint32_t> labelOf(model.features.size(), volume::kNoLabel);
+    const std::vector<char> isLeftOut = surfacesOfOtherLods(model, meshes);
     for (const FeatureIndex index : model.treeOrder()) {
+        if (isLeftOut[index] != 0) continue;
         const model::Feature& feature = model.features[index];
         labelOf[index] = static_cast<std::uint32_t>(table.labels.size());
         volume::Label label;
@@ -174,7 +199,7 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
                                    std::span<const StyleSheet* const> sheets, double thinnest) {
     LabelledObjects result;
     volume::LabelTable& table = result.table;
-    const std::vector<std::uint32_t> labelOf = numberFeatures(model, table);
+    const std::vector<std::uint32_t> labelOf = numberFeatures(model, meshes, table);
     std::vector<std::optional<Vec3f>> colors(table.labels.size());
     for (FeatureIndex f = 0; f < model.features.size(); ++f)
         if (labelOf[f] != volume::kNoLabel) colors[labelOf[f]] = materialColor(model, model.features[f]);

@@ -169,5 +169,21 @@ TEST(AddCapFeatures, ModelBuiltAgainGetsNoSecondCap) {
     EXPECT_EQ(model.features.size(), 2u);
 }
 
+// A file may have surfaces of its own for each level of detail, as those of 3D BAG.
+TEST(MakeLabels, SurfacesOfOtherLevelsOfDetailAreLeftOut) {
+    model::BuildingModel model;
+    const FeatureIndex house = addFeature(model, "Building", "house");
+    for (const double lod : {1.0, 2.0}) {
+        const auto box = test::addBox(model, {0, 0, 0}, {4, 3, 4 - lod});
+        model.features[house].geometries.push_back(test::solidOf(box, lod));
+        addFeature(model, "RoofSurface", lod == 1 ? "coarse" : "fine", house, {test::surfaceOf({box[1]}, lod)});
+    }
+    addFeature(model, "WallSurface", "without geometry", house);
+    const LabelledObjects labelled = labelsOf(model);
+    std::vector<std::string> ids;
+    for (const volume::Label& label : labelled.table.labels) ids.push_back(label.id);
+    EXPECT_EQ(ids, (std::vector<std::string>{"house", "fine", "without geometry"}));
+}
+
 }  // namespace
 }  // namespace svt::pipeline

@@ -6,6 +6,14 @@
 
 namespace svt::record {
 
+Result<void> checkTableText(std::string_view text, const std::string& file) {
+    const std::size_t at = findInvalidUtf8(text);
+    if (at == std::string_view::npos) return {};
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    return Error(Code::BadValue, "the table is not in UTF-8; save it as CSV UTF-8",
+                 {file, static_cast<std::uint64_t>(line), 0, {}});
+}
+
 CsvReader::CsvReader(std::string_view text) : text_(text) {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());

@@ -2,6 +2,8 @@
 /// \file
 /// Tables as text with a separator (RFC 4180), row by row with line numbers.
 
+#include <svt/core/result.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,6 +12,11 @@
 #include <vector>
 
 namespace svt::record {
+
+/// Checks that the text of a table is UTF-8. Spreadsheets may save tables in the code page of the machine.
+/// \param file  for the message
+/// \return success, or BadValue with the line
+[[nodiscard]] Result<void> checkTableText(std::string_view text, const std::string& file);
 
 /// Reads rows from a text, which must outlive the reader. Cells may stand in double quotes and then hold separators, line
 /// breaks and doubled quotes. Blanks around other cells do not count; neither do empty lines and lines that begin with #.

@@ -13,8 +13,8 @@ struct IsoTime {
     bool hasZone = false;
 };
 
-/// Reads `YYYY-MM-DD`, followed by nothing or by `T` or a blank, `HH:MM`, seconds with a fraction or none, and `Z`, an offset
-/// such as `+01:00`, `+0100` or `+01`, or nothing. Leap seconds count as the last second of the minute.
+/// Reads `YYYY-MM-DD`, followed by nothing or by `T` or a blank, `HH:MM`, seconds with a fraction or none, and `Z`, an
+/// offset such as `+01:00`, `+0100` or `+01`, or nothing. Leap seconds count as the last second of the minute.
 /// \return nothing for any other text, and for dates that do not exist
 [[nodiscard]] std::optional<IsoTime> parseIsoTime(std::string_view text) noexcept;
 

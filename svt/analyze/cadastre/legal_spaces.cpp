@@ -2,8 +2,8 @@
 
 #include <svt/analyze/cadastre/face_planes.hpp>
 #include <svt/analyze/cadastre/space_bodies.hpp>
-#include <svt/analyze/overlaps/common_volume.hpp>
 #include <svt/model/classes.hpp>
+#include <svt/plane/common_volume.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -145,19 +145,19 @@ private:
     }
 
     // Triangles above or below other bodies, in order of minX.
-    [[nodiscard]] static std::vector<RoofTriangle> roofsOf(const LegalSpace& space) {
-        std::vector<RoofTriangle> roofs;
+    [[nodiscard]] static std::vector<plane::RoofTriangle> roofsOf(const LegalSpace& space) {
+        std::vector<plane::RoofTriangle> roofs;
         for (const auto& solid : space.solids)
             for (const SpaceTriangle& triangle : solid)
-                if (RoofTriangle roof; makeRoofTriangle(triangle, roof)) roofs.push_back(roof);
-        std::sort(roofs.begin(), roofs.end(), [](const RoofTriangle& s, const RoofTriangle& t) {
+                if (plane::RoofTriangle roof; plane::makeRoofTriangle(triangle, roof)) roofs.push_back(roof);
+        std::sort(roofs.begin(), roofs.end(), [](const plane::RoofTriangle& s, const plane::RoofTriangle& t) {
             return std::tie(s.minX, s.minY, s.maxX, s.maxY) < std::tie(t.minX, t.minY, t.maxX, t.maxY);
         });
         return roofs;
     }
 
     void findOverlaps() {
-        std::vector<std::vector<RoofTriangle>> roofs;
+        std::vector<std::vector<plane::RoofTriangle>> roofs;
         for (const LegalSpace& space : found_.spaces) roofs.push_back(roofsOf(space));
         for (std::uint32_t a = 0; a < found_.spaces.size(); ++a)
             for (std::uint32_t b = a + 1; b < found_.spaces.size(); ++b) {
@@ -166,7 +166,7 @@ private:
                     continue;
                 const double ground = std::min(one.box.min.z, other.box.min.z);
                 SpaceRelation relation{SpaceRelationKind::Overlap, a, b};
-                relation.volume = std::max(0.0, commonVolume(roofs[a], roofs[b], ground));
+                relation.volume = std::max(0.0, plane::commonVolume(roofs[a], roofs[b], ground));
                 relation.isExact = one.body != SpaceBody::Voxels && other.body != SpaceBody::Voxels;
                 relation.bound = relation.isExact ? boundOf(one, other) : kInfinity;
                 if (*relation.volume > std::max(kLeastVolume, relation.isExact ? relation.bound : 0))

@@ -1,5 +1,6 @@
 #include <svt/analyze/known_volumes.hpp>
 
+#include <svt/model/building_model.hpp>
 #include <svt/model/classes.hpp>
 
 #include <algorithm>
@@ -123,6 +124,7 @@ std::optional<double> KnownVolumes::ofSolids(const std::vector<std::uint32_t>& e
 
 std::optional<double> KnownVolumes::countingBound(std::uint32_t label) const {
     const volume::Label& l = labels_.labels[label];
+    if (model::isReadInPart(l.attributes)) return std::nullopt;
     const double sides = l.filling == Filling::Body ? 2 : 1;
     double area = sides * l.area + lostArea_[label];
     if (!(l.area > 0) || !std::isfinite(area)) return std::nullopt;
@@ -152,6 +154,7 @@ KnownVolume KnownVolumes::ofOwn(const std::vector<std::uint32_t>& extent) const 
 }
 
 KnownVolume KnownVolumes::of(std::uint32_t label) const {
+    if (model::isReadInPart(labels_.labels[label].attributes)) return {};
     const std::vector<std::uint32_t> extent = extents_.of(label);
     for (const std::uint32_t part : extent) isInside_[part] = 1;
     const std::optional<double> solids = ofSolids(extent);

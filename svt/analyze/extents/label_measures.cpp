@@ -1,5 +1,6 @@
 #include <svt/analyze/label_measures.hpp>
 
+#include <svt/model/building_model.hpp>
 #include <svt/model/classes.hpp>
 
 #include <algorithm>
@@ -36,7 +37,7 @@ std::vector<Measure> ownMeasures(const volume::LabelTable& table, const volume::
         const volume::Label& label = table.labels[l];
         Measure& measure = measures[l];
         measure.voxels = label.voxels;
-        if (hasLost[l] == 0 && label.voxels > 0 && label.volume > 0) {
+        if (hasLost[l] == 0 && label.voxels > 0 && label.volume > 0 && !model::isReadInPart(label.attributes)) {
             measure.volume = label.volume;
             if (!volume::hasClosedMesh(label.filling)) measure.countedVolume = label.volume;
         } else if ((label.count > 0 || label.voxels > 0) && label.filling != volume::Filling::Surface) {
@@ -64,7 +65,8 @@ std::vector<Measure> measureLabels(const volume::SemanticVolume& volume, const s
 }
 
 std::optional<double> solidVolumeOf(const volume::Label& label) noexcept {
-    if (!volume::hasClosedMesh(label.filling) || !(label.volume > 0)) return {};
+    if (!volume::hasClosedMesh(label.filling) || !(label.volume > 0) || model::isReadInPart(label.attributes))
+        return {};
     return label.volume;
 }
 

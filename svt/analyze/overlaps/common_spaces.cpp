@@ -1,8 +1,8 @@
 #include <svt/analyze/common_spaces.hpp>
 
-#include <svt/analyze/overlaps/common_volume.hpp>
 #include <svt/analyze/overlaps/solid_clips.hpp>
 #include <svt/core/vec.hpp>
+#include <svt/plane/common_volume.hpp>
 
 #include <algorithm>
 #include <tuple>
@@ -56,9 +56,9 @@ std::optional<CommonSpace> CommonSpaces::of(std::uint32_t a, std::uint32_t b) {
     const Box3d box = commonBox(s->box, t->box);
     if (box.isEmpty()) return common;
     const SolidClip ofS = clipSolid(*s, a_->parts, box), ofT = clipSolid(*t, b_->parts, box);
-    if (!take(comparisons(ofS.roofs, ofT.roofs))) return std::nullopt;
+    if (!take(plane::comparisons(ofS.roofs, ofT.roofs))) return std::nullopt;
     const double lowest = std::min(ofS.lowest, ofT.lowest);
-    common.volume = std::max(0.0, commonVolume(ofS.roofs, ofT.roofs, lowest));
+    common.volume = std::max(0.0, plane::commonVolume(ofS.roofs, ofT.roofs, lowest));
     common.bound = boundOfCommonVolume(ofS.area + ofT.area, unit_, box, lowest);
     return common;
 }

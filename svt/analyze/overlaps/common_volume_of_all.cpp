@@ -26,7 +26,7 @@ Convex convexPart(const Convex& polygon, const ValueAt& valueAt) {
 
 class CommonPrisms {
 public:
-    CommonPrisms(std::span<const std::vector<RoofTriangle>* const> meshes, double ground, std::uint64_t& work)
+    CommonPrisms(std::span<const std::vector<plane::RoofTriangle>* const> meshes, double ground, std::uint64_t& work)
         : meshes_(meshes), ground_(ground), work_(work), chosen_(meshes.size(), nullptr) {}
 
     std::optional<double> run() {
@@ -47,7 +47,7 @@ private:
             minX = std::min_element(polygon.begin(), polygon.end())->front();
             maxX = std::max_element(polygon.begin(), polygon.end())->front();
         }
-        for (const RoofTriangle& triangle : *meshes_[level]) {
+        for (const plane::RoofTriangle& triangle : *meshes_[level]) {
             if (triangle.minX > maxX || !isComplete_) break;
             if (triangle.maxX < minX) continue;
             if (work_ == 0) {
@@ -62,13 +62,13 @@ private:
         }
     }
 
-    static Convex planOf(const RoofTriangle& triangle) {
+    static Convex planOf(const plane::RoofTriangle& triangle) {
         Convex plan;
         for (const Vec3d& corner : triangle.corners) plan.push_back({corner.x, corner.y});
         return plan;
     }
 
-    static Convex clipTo(Convex polygon, const RoofTriangle& triangle) {
+    static Convex clipTo(Convex polygon, const plane::RoofTriangle& triangle) {
         for (std::size_t n = 0; n < 3 && polygon.size() >= 3; ++n) {
             const Vec3d p = triangle.corners[n], way = triangle.corners[(n + 1) % 3] - p;
             polygon = convexPart(polygon, [&](const auto& q) { return way.x * (q[1] - p.y) - way.y * (q[0] - p.x); });
@@ -76,22 +76,23 @@ private:
         return polygon;
     }
 
-    [[nodiscard]] double heightOf(const RoofTriangle* triangle, const std::array<double, 2>& p) const {
+    [[nodiscard]] double heightOf(const plane::RoofTriangle* triangle, const std::array<double, 2>& p) const {
         return triangle == nullptr ? ground_ : triangle->heightAt(p[0], p[1]);
     }
 
     // The integral of the lowest of the first `count` planes over `base`; null: the ground.
-    [[nodiscard]] double lowest(const Convex& polygon, std::size_t count, const RoofTriangle* base) const {
+    [[nodiscard]] double lowest(const Convex& polygon, std::size_t count, const plane::RoofTriangle* base) const {
         if (polygon.size() < 3) return 0;
         if (count == 1) return integral(polygon, chosen_[0], base);
-        const RoofTriangle* last = chosen_[count - 1];
+        const plane::RoofTriangle* last = chosen_[count - 1];
         Convex above = polygon;
         for (std::size_t n = 0; n + 1 < count && above.size() >= 3; ++n)
             above = convexPart(above, [&](const auto& p) { return heightOf(chosen_[n], p) - heightOf(last, p); });
         return lowest(polygon, count - 1, base) - lowest(above, count - 1, last);
     }
 
-    [[nodiscard]] double integral(const Convex& polygon, const RoofTriangle* roof, const RoofTriangle* base) const {
+    [[nodiscard]] double integral(const Convex& polygon, const plane::RoofTriangle* roof,
+                                  const plane::RoofTriangle* base) const {
         const auto valueAt = [&](const auto& p) { return heightOf(roof, p) - heightOf(base, p); };
         double sum = 0;
         for (std::size_t n = 1; n + 1 < polygon.size(); ++n) {
@@ -102,17 +103,17 @@ private:
         return sum / 6;
     }
 
-    std::span<const std::vector<RoofTriangle>* const> meshes_;
+    std::span<const std::vector<plane::RoofTriangle>* const> meshes_;
     double ground_;
     std::uint64_t& work_;
-    std::vector<const RoofTriangle*> chosen_;
+    std::vector<const plane::RoofTriangle*> chosen_;
     double sum_ = 0;
     bool isComplete_ = true;
 };
 
 }  // namespace
 
-std::optional<double> commonVolumeOfAll(std::span<const std::vector<RoofTriangle>* const> meshes, double ground,
+std::optional<double> commonVolumeOfAll(std::span<const std::vector<plane::RoofTriangle>* const> meshes, double ground,
                                         std::uint64_t& work) {
     return CommonPrisms(meshes, ground, work).run();
 }

@@ -7,7 +7,7 @@
 ///
 ///     lowest(z1 .. zn) - base  =  (lowest(z1 .. zn-1) - base)  -  (lowest(z1 .. zn-1) - zn, where all of these are above zn)
 
-#include <svt/analyze/overlaps/common_volume.hpp>
+#include <svt/plane/common_volume.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -17,11 +17,11 @@
 namespace svt::analyze {
 
 /// The common volume of one or more closed meshes, m3.
-/// \param meshes  each in order of minX; see commonVolume() for the triangles that can be left out
+/// \param meshes  each in order of minX; see plane::commonVolume() for the triangles that can be left out
 /// \param ground  a height below all triangles, close to them to limit rounding
 /// \param work    maximum number of compared triangles; the function reduces it
 /// \return the volume, or nothing if the work does not suffice
-[[nodiscard]] std::optional<double> commonVolumeOfAll(std::span<const std::vector<RoofTriangle>* const> meshes,
+[[nodiscard]] std::optional<double> commonVolumeOfAll(std::span<const std::vector<plane::RoofTriangle>* const> meshes,
                                                       double ground, std::uint64_t& work);
 
 }  // namespace svt::analyze

@@ -228,7 +228,7 @@ private:
     // The volume that all of claims_ have in common in a box; 0 below the rounding of the meshes.
     double commonOfClaims(const Box3d& box) {
         std::vector<SolidClip> clips;
-        std::vector<const std::vector<RoofTriangle>*> roofs;
+        std::vector<const std::vector<plane::RoofTriangle>*> roofs;
         double lowest = box.min.z, area = 0;
         isComplete_ = isComplete_ && claims_.size() <= kMostClaims;
         for (const std::size_t claim : claims_) {
@@ -255,9 +255,9 @@ private:
         // First the mesh with the fewest triangles, so that others are clipped to few.
         std::sort(roofs.begin(), roofs.end(), [](const auto* a, const auto* b) { return a->size() < b->size(); });
         std::optional<double> volume;
-        if (roofs.size() == 2 && comparisons(*roofs[0], *roofs[1]) <= work_) {
-            work_ -= comparisons(*roofs[0], *roofs[1]);
-            volume = commonVolume(*roofs[0], *roofs[1], lowest);
+        if (roofs.size() == 2 && plane::comparisons(*roofs[0], *roofs[1]) <= work_) {
+            work_ -= plane::comparisons(*roofs[0], *roofs[1]);
+            volume = plane::commonVolume(*roofs[0], *roofs[1], lowest);
         } else if (roofs.size() > 2) {
             volume = commonVolumeOfAll(roofs, lowest, work_);
         }

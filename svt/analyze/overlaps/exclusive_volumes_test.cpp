@@ -149,7 +149,7 @@ TEST(CommonVolumeOfAll, EndsWithItsWork) {
     std::vector<SolidClip> clips;
     for (const MeshSolid& solid : meshSolids(volume))
         clips.push_back(clipSolid(solid, volume.vectors, {{0, 0, 0}, {3, 1, 1}}));
-    const std::vector<RoofTriangle>* const roofs[] = {&clips[0].roofs, &clips[1].roofs, &clips[2].roofs};
+    const std::vector<plane::RoofTriangle>* const roofs[] = {&clips[0].roofs, &clips[1].roofs, &clips[2].roofs};
     std::uint64_t work = 100000;
     const auto volumeOf = commonVolumeOfAll(roofs, 0, work);
     ASSERT_TRUE(volumeOf);

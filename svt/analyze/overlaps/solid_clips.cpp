@@ -23,6 +23,25 @@ Box3d boxOfCorners(const std::array<Vec3d, 3>& corners) {
 
 }  // namespace
 
+namespace {
+
+// Whether a mesh encloses the volume that its label states. A mesh whose parts overlap encloses more, or the label states none: the mesh would count their common
+// space twice.
+bool enclosesOnce(const MeshSolid& solid, const volume::SemanticVolume& volume) {
+    const volume::Label& label = volume.labels.labels[solid.label];
+    if (!(label.volume > 0)) return false;
+    double enclosed = 0, area = 0;
+    for (const MeshTriangle& triangle : solid.triangles) {
+        const std::array<Vec3d, 3> c = cornersOf(triangle, volume.vectors, solid.offset);
+        const Vec3d a = c[0] - solid.box.min, b = c[1] - solid.box.min, d = c[2] - solid.box.min;
+        enclosed += dot(a, cross(b, d)) / 6;
+        area += length(cross(b - a, d - a)) / 2;
+    }
+    return volume::enclosesStatedVolume(label, enclosed, area, volume.vectors.unit);
+}
+
+}  // namespace
+
 std::vector<MeshSolid> meshSolids(const volume::SemanticVolume& volume, Vec3d offset) {
     std::vector<MeshSolid> solids;
     const std::span<const MeshTriangle> all = volume.vectors.triangles;
@@ -32,7 +51,7 @@ std::vector<MeshSolid> meshSolids(const volume::SemanticVolume& volume, Vec3d of
         if (!volume::hasClosedMesh(volume.labels.labels[solid.label].filling)) continue;
         for (const MeshTriangle& triangle : solid.triangles)
             solid.box.add(boxOfCorners(cornersOf(triangle, volume.vectors, offset)));
-        solids.push_back(solid);
+        if (enclosesOnce(solid, volume)) solids.push_back(solid);
     }
     return solids;
 }
@@ -53,13 +72,13 @@ SolidClip clipSolid(const MeshSolid& solid, const volume::VectorParts& parts, co
         const std::array<Vec3d, 3> corners = cornersOf(triangle, parts, solid.offset);
         const Box3d of = boxOfCorners(corners);
         if (of.max.x < box.min.x || of.min.x > box.max.x || of.max.y < box.min.y || of.min.y > box.max.y) continue;
-        RoofTriangle roof;
-        if (makeRoofTriangle(corners, roof)) clip.roofs.push_back(roof);
+        plane::RoofTriangle roof;
+        if (plane::makeRoofTriangle(corners, roof)) clip.roofs.push_back(roof);
         clip.lowest = std::min(clip.lowest, of.min.z);
         if (of.max.z < box.min.z || of.min.z > box.max.z) continue;
         clip.area += std::min(0.5 * length(cross(corners[1] - corners[0], corners[2] - corners[0])), largest);
     }
-    std::sort(clip.roofs.begin(), clip.roofs.end(), [](const RoofTriangle& s, const RoofTriangle& t) {
+    std::sort(clip.roofs.begin(), clip.roofs.end(), [](const plane::RoofTriangle& s, const plane::RoofTriangle& t) {
         return std::tie(s.minX, s.minY, s.maxX, s.maxY) < std::tie(t.minX, t.minY, t.maxX, t.maxY);
     });
     return clip;

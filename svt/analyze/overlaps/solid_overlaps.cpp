@@ -1,9 +1,9 @@
 #include <svt/analyze/solid_overlaps.hpp>
 
-#include <svt/analyze/overlaps/common_volume.hpp>
 #include <svt/analyze/overlaps/solid_clips.hpp>
 #include <svt/core/vec.hpp>
 #include <svt/model/classes.hpp>
+#include <svt/plane/common_volume.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -80,11 +80,11 @@ private:
     void compare(const MeshSolid& s, const MeshSolid& t, const Box3d& box) {
         if (!take(s.triangles.size() + t.triangles.size())) return;
         const SolidClip ofS = clipSolid(s, volume_.vectors, box), ofT = clipSolid(t, volume_.vectors, box);
-        if (!take(comparisons(ofS.roofs, ofT.roofs))) return;
+        if (!take(plane::comparisons(ofS.roofs, ofT.roofs))) return;
         const auto [a, b] = inOrder(s.label, t.label);
         SolidOverlap overlap{a, b};
         const double lowest = std::min(ofS.lowest, ofT.lowest);
-        overlap.volume = std::max(0.0, commonVolume(ofS.roofs, ofT.roofs, lowest));
+        overlap.volume = std::max(0.0, plane::commonVolume(ofS.roofs, ofT.roofs, lowest));
         overlap.bound = boundOfCommonVolume(ofS.area + ofT.area, volume_.vectors.unit, box, lowest);
         overlap.isExact = true;
         overlap.isNested = areNested(volume_.labels, a, b);

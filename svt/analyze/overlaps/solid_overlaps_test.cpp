@@ -1,7 +1,7 @@
 /// Overlaps of solids whose common volume is known: boxes, wedges, turned boxes; thinner than any voxel, touching, doubled.
 
-#include <svt/analyze/overlaps/common_volume.hpp>
 #include <svt/analyze/solid_overlaps.hpp>
+#include <svt/plane/common_volume.hpp>
 #include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
@@ -142,18 +142,18 @@ TEST(SolidOverlaps, WithoutMeshesOrPastTheWorkVoxelsTell) {
 }
 
 TEST(SolidOverlaps, ComparisonsAreCountedBeforeTheyAreMade) {
-    std::vector<RoofTriangle> a, b;
-    const auto add = [](std::vector<RoofTriangle>& list, double x) {
-        RoofTriangle triangle;
-        ASSERT_TRUE(makeRoofTriangle({Vec3d{x, 0, 0}, Vec3d{x + 1, 0, 0}, Vec3d{x, 1, 0}}, triangle));
+    std::vector<plane::RoofTriangle> a, b;
+    const auto add = [](std::vector<plane::RoofTriangle>& list, double x) {
+        plane::RoofTriangle triangle;
+        ASSERT_TRUE(plane::makeRoofTriangle({Vec3d{x, 0, 0}, Vec3d{x + 1, 0, 0}, Vec3d{x, 1, 0}}, triangle));
         list.push_back(triangle);
     };
     for (const double x : {0.0, 0.5, 2.0, 4.0}) add(a, x);
     for (const double x : {1.0, 1.2, 8.0}) add(b, x);
     // 0.5 meets both of 1.0 and 1.2; 2.0 meets 1.2; 0.0 touches only 1.0.
-    EXPECT_EQ(comparisons(a, b), 3u);
-    RoofTriangle upright;
-    EXPECT_FALSE(makeRoofTriangle({Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{1, 0, 1}}, upright));
+    EXPECT_EQ(plane::comparisons(a, b), 3u);
+    plane::RoofTriangle upright;
+    EXPECT_FALSE(plane::makeRoofTriangle({Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{1, 0, 1}}, upright));
 }
 
 }  // namespace

@@ -439,6 +439,11 @@ private:
 }  // namespace
 
 Result<OwnerTable> parseOwners(std::string_view text, std::string_view file, const volume::LabelTable& labels) {
+    if (const std::size_t at = findInvalidUtf8(text); at != std::string_view::npos) {
+        const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+        return Error(Code::BadValue, "owners table: the table is not in UTF-8; save it as CSV UTF-8",
+                     {std::string(file), static_cast<std::uint64_t>(line), 0, {}});
+    }
     if (text.size() > kMaxBytes)
         return Error(Code::InputTooBig,
                      fmt::format("an owners table of {} bytes; at most {} are read", text.size(), kMaxBytes),

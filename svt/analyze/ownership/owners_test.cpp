@@ -225,6 +225,9 @@ TEST(Owners, RightsOtherThanOwnershipAreKeptApart) {
     EXPECT_EQ(unknown.where().line, 3u);
     for (const char* name : {"'rent'", "lease", "usufruct", "easement", "mortgage", "maintenance"})
         EXPECT_NE(unknown.message().find(name), std::string::npos) << name << unknown.message();
+    const Error latin = errorOf("feature,owner\na,M\xfcller\n");
+    EXPECT_EQ(latin.where().line, 2u);
+    EXPECT_NE(latin.message().find("UTF-8"), std::string::npos) << latin.message();
     EXPECT_NE(errorOf("feature,owner,note\na,Ada,x\n").message().find("'note' is unknown"), std::string::npos);
     EXPECT_NE(errorOf("feature,owner,owner\na,Ada,x\n").message().find("there twice"), std::string::npos);
     EXPECT_EQ(errorOf("feature,owner,right\na,,lease\n").where().line, 2u);

@@ -2,6 +2,7 @@
 #include <svt/drawing/section_drawing.hpp>
 
 #include <svt/analyze/exclusive_volumes.hpp>
+#include <svt/analyze/space_boundaries.hpp>
 #include <svt/core/text.hpp>
 #include <svt/drawing/areas/covered_area.hpp>
 #include <svt/drawing/drawing_tables.hpp>
@@ -25,6 +26,7 @@ namespace svt::drawing {
 namespace {
 
 constexpr double kLeastRoomHeight = 1.5;  // metres: lower spaces are voids
+constexpr double kSameFloor = 0.01;       // metres
 constexpr double kBelowSills = 0.15;      // metres above the floor: below the sills of windows
 constexpr double kBelowCeiling = 0.1;     // metres: above the heads of doors and windows
 
@@ -83,7 +85,15 @@ bool isRoofSpace(const volume::Label& label) {
     return std::find(std::begin(kNames), std::end(kNames), lowerAscii(label.name)) != std::end(kNames);
 }
 
-bool isMeasuredRoom(const volume::Label& label) { return label.count > 0 && isRoomSpace(label) && !isRoofSpace(label); }
+// A space outdoors, such as a terrace.
+bool isExternal(const volume::Label& label) {
+    const std::string* type = attributeText(label, "predefinedType");
+    return type != nullptr && *type == "EXTERNAL";
+}
+
+bool isMeasuredRoom(const volume::Label& label) {
+    return label.count > 0 && isRoomSpace(label) && !isRoofSpace(label) && !isExternal(label);
+}
 
 // Sums over the triangles of each label.
 struct MeshSum {
@@ -120,6 +130,7 @@ public:
           tables_(tables),
           meshes_(sumMeshes(volume)),
           roomAreas_(tables.roomAreas()),
+          spaces_(analyze::spacesOfLabels(volume.labels)),
           extents_(labelExtents(volume)),
           levelOf_(levelsOfLabels(volume, levels, extents_)) {}
 
@@ -218,13 +229,19 @@ private:
         return found != areas.end() && found->first == label ? found->second : 0;
     }
 
-    // The area of a room without a closed mesh: at the cut of its level, or above its own floor if that is elsewhere.
+    // The area of a room without a closed mesh: at the cut of its level, or above its own floor if that is elsewhere. Furniture
+    // and sheets in the room take voxels from it, but no floor.
     Result<double> cutArea(const RoomArea& room, const LabelExtent& extent) const {
-        if (const double area = areaAt(room.level, room.label); area > 0) return area;
+        const BuildingLevel& level = levels_[room.level];
+        const double floor = level.roomFloor.value_or(level.floor);
+        double sum = 0;
+        if (std::abs(extent.floor - floor) <= kSameFloor + extent.bound)
+            for (const auto& [label, area] : areasAt_[room.level]) sum += spaces_[label] == room.label ? area : 0;
+        if (sum > 0) return sum;
         SVT_TRY(drawing, cutAt(extent.floor + kBelowSills, threads_));
         for (const SectionComponent& component : drawing->components)
-            if (component.label == room.label) return component.area;
-        return 0.0;
+            if (spaces_[component.label] == room.label) sum += component.area;
+        return sum;
     }
 
     Result<void> addRooms() {
@@ -343,6 +360,7 @@ private:
     const DrawingTables& tables_;
     std::vector<MeshSum> meshes_;                          // by label
     const std::vector<std::optional<double>>& roomAreas_;  // by label
+    std::vector<std::uint32_t> spaces_;                    // of each label, see analyze::spacesOfLabels()
     std::vector<LabelExtent> extents_;                     // by label
     std::vector<std::size_t> levelOf_;                     // by label
     std::vector<double> ceilings_;                         // by level, metres above the grid's lower corner

@@ -3,9 +3,12 @@
 #include <svt/drawing/exact/boxes_test.hpp>
 #include <svt/drawing/floor_areas.hpp>
 #include <svt/drawing/room_floor_areas.hpp>
+#include <svt/pipeline/sample_models_test.hpp>
 
 #include <gtest/gtest.h>
+#include <polyclipping/clipper.hpp>
 
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -261,6 +264,51 @@ TEST(RoomUse, WordsOfNamesAndAttributesTell) {
     EXPECT_EQ(useOf("1.07", "Kitchen"), RoomUse::Use);
     EXPECT_EQ(useOf("1.07"), RoomUse::Unknown);
     EXPECT_EQ(useOf("Badge 7"), RoomUse::Unknown);
+}
+
+// The union of the faces of a label that look down, seen from above, by Clipper; m2.
+double unionByClipper(const volume::SemanticVolume& volume, std::uint32_t label) {
+    ClipperLib::Clipper clipper;
+    const Vec3d origin = volume.grid.origin();
+    for (const volume::VectorParts::Triangle& triangle : volume.vectors.triangles) {
+        if (triangle.label != label) continue;
+        ClipperLib::Path path;
+        for (const std::uint32_t corner : triangle.corners) {
+            const Vec3d p = volume.vectors.position(corner, origin);
+            path.emplace_back(std::llround((p.x - origin.x) * 1e7), std::llround((p.y - origin.y) * 1e7));
+        }
+        if (ClipperLib::Area(path) < 0) clipper.AddPath(path, ClipperLib::ptSubject, true);
+    }
+    ClipperLib::Paths joined;
+    clipper.Execute(ClipperLib::ctUnion, joined, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    double area = 0;
+    for (const ClipperLib::Path& path : joined) area += ClipperLib::Area(path) / 1e14;
+    return area;
+}
+
+TEST(RoomFloorAreas, AreTheUnionOfFacesThatLookDown) {
+    const volume::SemanticVolume volume =
+        svt::test::volumeOfSample(samples::SampleKind::House, samples::SampleFormat::Ifc4, 0.2);
+    const auto areas = roomFloorAreas(volume);
+    int rooms = 0;
+    for (std::uint32_t l = 0; l < areas.size(); ++l) {
+        if (!areas[l]) continue;
+        ++rooms;
+        EXPECT_NEAR(*areas[l], unionByClipper(volume, l), 2e-4) << volume.labels.labels[l].name;
+    }
+    EXPECT_GT(rooms, 10);
+}
+
+TEST(RoomFloorAreas, ASpaceOutdoorsIsNoArea) {
+    Boxes boxes;
+    boxes.addBox("room", "BuildingRoom", {0.3, 0.3, 0}, {4, 4, 2.5});
+    boxes.addBox("terrace", "BuildingRoom", {4, 0.3, 0}, {6, 4, 2.5});
+    boxes.volume.labels.labels.back().attributes.push_back({"predefinedType", std::string("EXTERNAL"), ""});
+    boxes.addBox("west", "BuildingConstructiveElement", {0, 0, 0}, {0.3, 4, 2.5});
+    const auto areas = measureFloorAreas(boxes.volume, findLevels(boxes.volume));
+    ASSERT_TRUE(areas);
+    ASSERT_EQ(areas->rooms.size(), 1u);
+    EXPECT_EQ(areas->rooms[0].name, "room");
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ namespace svt::drawing {
 /// \return metres, 0: none; or BadArgument if there would be more than kMostArrows
 [[nodiscard]] Result<double> arrowStepOf(const std::deque<RegionGrid>& grids, const FieldDrawingOptions& options);
 
-/// Arrows at whole multiples of the step that lie within one region. Longer values than `longest` have arrows of the same length.
+/// Arrows at whole multiples of the step that lie within one region. Longer values than `longest` have arrows of the
+/// same length.
 /// \param source  its field and sampler are those of the vectors
 /// Cost: O(arrows * (edges of a row + runs of a column)).
 [[nodiscard]] std::vector<FieldArrow> findArrows(const std::deque<RegionGrid>& grids, const FieldSource& source,

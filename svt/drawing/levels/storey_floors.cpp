@@ -17,6 +17,8 @@
 namespace svt::drawing {
 namespace {
 
+constexpr double kLeastSpaceHeight = 1.0;  // metres
+
 constexpr double kSameFloor = 0.01;     // metres
 constexpr double kLevelCosine = 0.999;  // of the slope up to which a face is level
 constexpr double kThickestSlab = 1;     // metres: thicker ones slope, or are foundations
@@ -87,7 +89,8 @@ public:
             return;
         }
         spaces_.add(extent);
-        spaceFloors_.push_back(floorHeightOf(extent));
+        // A beam that a program writes as a space has no floor.
+        if (size.z >= kLeastSpaceHeight) spaceFloors_.push_back(floorHeightOf(extent));
         if (isRoomOfSize(label, extent)) roomFloors_.push_back(floorHeightOf(extent));
     }
 
@@ -112,7 +115,7 @@ public:
         heights.declared = declared_;
         heights.features = features_;
         for (const FloorHeight& floor : roomFloors_) heights.roomArea += floor.area;
-        if (!spaces_.box.isEmpty())
+        if (!spaceFloors_.empty())
             useRooms(heights);
         else
             useParts(heights, ofModel, extent);

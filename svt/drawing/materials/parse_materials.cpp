@@ -1,5 +1,6 @@
 #include <svt/core/text.hpp>
 #include <svt/drawing/material_table.hpp>
+#include <svt/record/csv_reader.hpp>
 #include <svt/record/record.hpp>
 
 #include <fmt/format.h>
@@ -61,6 +62,7 @@ bool hasReplaceLine(std::string_view text) {
 }  // namespace
 
 Result<MaterialTable> parseMaterials(std::string_view text, const std::string& file) {
+    SVT_DO(record::checkTableText(text, file));
     const bool isJson = withoutBlanks(text).starts_with('{');
     bool replaces = !isJson && hasReplaceLine(text);
     auto table = isJson ? parseJson(text, file, replaces) : MaterialTable::parseCsv(text, file);

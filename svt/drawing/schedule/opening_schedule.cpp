@@ -115,12 +115,14 @@ Vec3d acrossWall(Vec3d normal, const NormalSum& sum, const volume::SemanticVolum
     if (rise > kUpright && rise <= kFlat) return normal;
     if (rise > kFlat) {
         Vec3d start = volume.grid.axes()[0] + volume.grid.axes()[1] * 0.7;
-        const auto flat = sum.main(start - up * dot(start, up));
-        if (!flat || std::abs(dot(*flat, up)) > kUpright) return normal;
-        const Vec3d along = normalized(cross(up, *flat));
-        const double depth = std::min(extentAlong(sum, volume, *flat), extentAlong(sum, volume, along));
+        const auto found = sum.main(start - up * dot(start, up));
+        if (!found || std::abs(dot(*found, up)) > kUpright) return normal;
+        // Slanted sills tilt the direction, and the window would be deeper than it is.
+        const Vec3d flat = normalized(*found - up * dot(*found, up));
+        const Vec3d along = normalized(cross(up, flat));
+        const double depth = std::min(extentAlong(sum, volume, flat), extentAlong(sum, volume, along));
         if (extentAlong(sum, volume, up) <= depth) return normal;
-        normal = *flat;
+        normal = flat;
     }
     const Vec3d along = normalized(cross(up, normal));
     const double width = extentAlong(sum, volume, along), depth = extentAlong(sum, volume, normal);

@@ -107,7 +107,7 @@ Result<LineView> drawLineView(const volume::SemanticVolume& volume, const render
     if (!hasMeshes(volume))
         return Error(Code::BadArgument,
                      "a line drawing needs the model's meshes, which the volume does not keep; build it again with "
-                     "--meshes, or give the model itself");
+                     "--vectors meshes, or give the model itself");
     const render::Pass& pass = frame.passes.front();
     SVT_TRY(plane, planeOfClips(pass.clips));
     std::vector<std::uint8_t> isDrawn(volume.labels.labels.size(), 0);

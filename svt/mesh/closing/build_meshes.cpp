@@ -1,5 +1,6 @@
 #include <svt/core/parallel.hpp>
 #include <svt/mesh/closing/closing.hpp>
+#include <svt/mesh/closing/shared_volume.hpp>
 #include <svt/mesh/closing/shell.hpp>
 #include <svt/mesh/mesh_set.hpp>
 #include <svt/mesh/planes.hpp>
@@ -28,6 +29,7 @@ using model::SurfaceUse;
 struct Work {
     Shell shell;
     std::vector<Shell> parts;
+    SharedVolume shared;  // of the solids
 };
 
 // Where solids touch, wrongly oriented faces of both can cancel each other, so that the shells are closed only
@@ -56,6 +58,7 @@ void gatherShells(const std::vector<MeshSource>& sources, const ShellInput& inpu
             testClosing(work[i].shell, input, sources[i].hasSolidMeaning && parts.empty());
             if (work[i].shell.mesh.openEdges.empty()) {
                 checkSolidsAlone(parts, input, work[i].shell);
+                work[i].shared = findSharedVolume(parts, input);
                 continue;
             }
             // Surfaces around something that need not be a body, and enclose nothing: they stand for themselves.
@@ -152,10 +155,11 @@ double volumeWithFans(const ObjectMesh& mesh) {
     return signedVolume(vertices, triangles);
 }
 
-void finish(ObjectMesh& mesh, bool measuresThickness) {
+void finish(ObjectMesh& mesh, const SharedVolume& shared, bool measuresThickness) {
     if (mesh.isSolid()) {
         mesh.flippedFaces += orientOutwards(mesh.vertices, mesh.triangles);
-        mesh.volume = signedVolume(mesh.vertices, mesh.triangles);
+        mesh.volume = shared.isAny() ? shared.unionVolume() : signedVolume(mesh.vertices, mesh.triangles);
+        mesh.isVolumeKnown = shared.isKnown;
     }
     for (Triangle& triangle : mesh.triangles) triangle.thickness = std::numeric_limits<float>::infinity();
     if (mesh.isSolid() && measuresThickness) measureThickness(mesh);
@@ -237,8 +241,8 @@ std::string joinedText(const ObjectMesh& mesh) {
     return text;
 }
 
-void report(const BuildingModel& model, const Shell& shell, const ObjectMesh& mesh, const MeshOptions& options,
-            Vec3d origin, Diagnostics& log) {
+void report(const BuildingModel& model, const Shell& shell, const SharedVolume& shared, const ObjectMesh& mesh,
+            const MeshOptions& options, Vec3d origin, Diagnostics& log) {
     const Feature& feature = model.features[mesh.feature];
     const Place place{model.source, feature.line, 0, feature.id};
     const std::string leaks = leakText(mesh, origin);
@@ -286,6 +290,11 @@ void report(const BuildingModel& model, const Shell& shell, const ObjectMesh& me
                     place);
             break;
     }
+    if (mesh.isSolid() && shared.isAny())
+        log.add(shared.isKnown ? Severity::Note : Severity::Warning, Code::SolidsIntersect,
+                shared.isKnown ? fmt::format("its solids overlap by {:.6g} m3, which count once", shared.shared)
+                               : "at least three of its solids overlap each other, so its volume is that of its voxels",
+                place);
     if (mesh.flippedFaces != 0)
         log.add(Severity::Warning, Code::FaceFlipped,
                 fmt::format("{} triangles faced the wrong way and were turned", mesh.flippedFaces), place);
@@ -332,7 +341,7 @@ Result<MeshSet> buildMeshes(const BuildingModel& model, const MeshOptions& optio
     for (Work& object : work) meshes.objects.push_back(std::move(object.shell.mesh));
     parallelFor(meshes.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            finish(meshes.objects[i], options.measuresThickness);
+            finish(meshes.objects[i], work[i].shared, options.measuresThickness);
             meshes.objects[i].vertices.shrink_to_fit();  // lists that grew may have reserved twice their size
             meshes.objects[i].triangles.shrink_to_fit();
         }
@@ -340,7 +349,8 @@ Result<MeshSet> buildMeshes(const BuildingModel& model, const MeshOptions& optio
     turnSheets(sources, polygons, meshes);
     for (std::size_t i = 0; i < meshes.objects.size(); ++i) {
         meshes.bounds.add(meshes.objects[i].bounds);
-        if (log != nullptr) report(model, work[i].shell, meshes.objects[i], options, meshes.origin, *log);
+        if (log != nullptr)
+            report(model, work[i].shell, work[i].shared, meshes.objects[i], options, meshes.origin, *log);
     }
     std::erase_if(meshes.objects, [](const ObjectMesh& mesh) { return mesh.triangles.empty(); });
     if (meshes.objects.empty())

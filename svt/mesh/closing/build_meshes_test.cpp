@@ -580,5 +580,38 @@ TEST(ClosureName, EveryClosureHasItsOwn) {
     EXPECT_EQ(closingMethodName(ClosingMethod::Surface), "surface");
 }
 
+// Boxes as the solids of one building.
+BuildingModel modelOfSolids(const std::vector<std::pair<Vec3d, Vec3d>>& boxes) {
+    BuildingModel model;
+    model::Geometry geometry;
+    geometry.kind = model::GeometryKind::Solid;
+    geometry.lod = 3;
+    for (const auto& [low, high] : boxes) {
+        model::Solid solid;
+        solid.exterior = addBox(model, low, high);
+        geometry.solids.push_back(std::move(solid));
+    }
+    addFeature(model, "Building", "house", model::kNoFeature, {std::move(geometry)});
+    return model;
+}
+
+TEST(BuildMeshes, SpaceThatSolidsShareCountsOnce) {
+    const auto volumeOf = [](const std::vector<std::pair<Vec3d, Vec3d>>& boxes, std::size_t findings) {
+        Diagnostics log;
+        const MeshSet meshes = meshesOf(modelOfSolids(boxes), &log);
+        EXPECT_EQ(log.count(Code::SolidsIntersect), findings);
+        return meshes.objects.empty() ? -1 : meshes.objects[0].volume;
+    };
+    const std::pair<Vec3d, Vec3d> box{{0, 0, 0}, {4, 3, 2}};
+    EXPECT_NEAR(volumeOf({box, {{3, 1, 0.5}, {6, 2, 1.5}}}, 1), 24 + 3 - 1, 1e-9);
+    EXPECT_NEAR(volumeOf({box, {{1, 1, 0.5}, {2, 2, 1.5}}}, 1), 24, 1e-9) << "one within the other";
+    EXPECT_NEAR(volumeOf({box, {{4, 0, 0}, {5, 3, 2}}}, 0), 30, 1e-9) << "they touch";
+    EXPECT_NEAR(volumeOf({box, {{-1, 1, 0.5}, {5, 2, 1.5}}}, 1), 24 + 2, 1e-9) << "a cross, without corners inside";
+    // Three that overlap each other.
+    const MeshSet meshes = meshesOf(modelOfSolids({box, {{3, 1, 0.5}, {6, 2, 1.5}}, {{3.5, 1, 0.5}, {7, 2, 1.5}}}));
+    EXPECT_EQ(meshes.objects[0].volume, 0);
+    EXPECT_FALSE(meshes.objects[0].isVolumeKnown);
+}
+
 }  // namespace
 }  // namespace svt::mesh

@@ -96,7 +96,9 @@ void checkVolumes(const model::BuildingModel& model, const Prepared& prepared, c
     for (const voxelize::ClaimPair& pair : voxels.overlaps) lost[pair.b] += pair.voxels;
     for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
         const mesh::ObjectMesh& object = meshes.objects[o];
-        if (object.closingMethod == mesh::ClosingMethod::Surface || !liesInGrid(object, meshes, grid)) continue;
+        if (object.closingMethod == mesh::ClosingMethod::Surface || !object.isVolumeKnown ||
+            !liesInGrid(object, meshes, grid))
+            continue;
         const std::uint32_t l = labelled.labelOfObject[o];
         const volume::Label& label = labelled.table.labels[l];
         const double allowed = kPart * std::abs(object.enclosedVolume) + object.area * halfVoxel + grid.voxelVolume();

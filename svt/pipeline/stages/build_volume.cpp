@@ -111,7 +111,8 @@ void fillAreas(Prepared& prepared) {
     for (std::size_t o = 0; o < prepared.meshes.objects.size(); ++o) {
         const std::uint32_t l = prepared.labelled.labelOfObject[o];
         const volume::Filling filling = labels[l].filling;
-        if (isCounted[l] != 0 || filling == volume::Filling::Winding || filling == volume::Filling::Body)
+        if (isCounted[l] != 0 || filling == volume::Filling::Winding || filling == volume::Filling::Body ||
+            !prepared.meshes.objects[o].isVolumeKnown)
             labels[l].area = prepared.meshes.objects[o].area;
     }
 }

@@ -3,6 +3,7 @@
 #include <svt/analyze/extents.hpp>
 #include <svt/analyze/label_measures.hpp>
 #include <svt/core/parallel.hpp>
+#include <svt/model/building_model.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/quantities/measure/plate.hpp>
 #include <svt/quantities/measure/ring.hpp>
@@ -75,6 +76,8 @@ public:
         for (std::uint32_t child = label + 1; child < labels_[label].subtreeEnd && child < labels_.size(); ++child)
             if (labels_[child].parent == label && model::isPhase(labels_[child].className))
                 result.parts.push_back(child);
+        // Whatever its shape lacks, no figure is known.
+        if (model::isReadInPart(labels_[label].attributes)) return result;
         std::vector<Corners> all;
         const std::uint32_t* solid = nullptr;
         std::size_t withFaces = 0;
@@ -120,15 +123,18 @@ private:
     // Adds the volume of a part, its bound and its source; the least exact source is that of the sum.
     void addVolume(std::uint32_t part, std::span<const Corners> triangles, ObjectQuantities& result) const {
         const Label& label = labels_[part];
-        const Trust trust = trustOf(label.filling);
+        Trust trust = trustOf(label.filling);
         if (trust == Trust::Unknown) return;
+        // A closed mesh without a known volume, such as one of solids that overlap each other.
+        const bool isCounted = volume::hasClosedMesh(label.filling) && !(label.volume > 0);
+        if (isCounted) trust = Trust::Voxels;
         double volume = 0;
         std::optional<double> bound;
         if (const auto solid = analyze::solidVolumeOf(label)) {
             volume = *solid;
             if (trust != Trust::Caps)
                 bound = (triangles.empty() ? label.area : sumsOf(triangles).all()) * volume::VectorParts::kFinestUnit;
-        } else if (trust == Trust::Voxels || trust == Trust::Assumed) {
+        } else {
             const std::uint64_t inside =
                 label.voxels - (label.filling == Filling::Winding ? std::min(label.voxels, label.thinVoxels) : 0);
             if (inside + lost_[part] == 0) return;
@@ -136,8 +142,6 @@ private:
             volume = double(inside + lost_[part]) * voxel;
             if (trust == Trust::Voxels && label.area > 0)
                 bound = label.area * halfVoxel_ + double(label.uncertainVoxels + lost_[part]) * voxel;
-        } else {
-            return;  // a closed mesh whose volume the file does not keep
         }
         const bool isFirst = !result.netVolume;
         result.netVolume = result.netVolume.value_or(0) + volume;

@@ -2,6 +2,7 @@
 #include <svt/quantities/quantities.hpp>
 #include <svt/quantities/touching_faces.hpp>
 
+#include <svt/analyze/label_measures.hpp>
 #include <svt/model/building_model.hpp>
 #include <svt/pipeline/build_volume.hpp>
 
@@ -170,6 +171,21 @@ TEST(Quantities, OfAWallWithWindowAndDoor) { expectWall(Measured({wallWithOpenin
 TEST(Quantities, DoNotDependOnTheDirection) {
     for (const double degrees : {30.0, 90.0, 211.0})
         expectWall(Measured({wallWithOpenings(degrees * std::numbers::pi / 180)})["wall"]);
+}
+
+TEST(Quantities, AreUnknownOfAnObjectThatWasReadInPart) {
+    Measured measured({wallWithOpenings()});
+    const std::uint32_t wall = measured["wall"].label;
+    measured.volume.labels.labels[wall].attributes.push_back(
+        {std::string(model::kReadInPartAttribute), std::string("1 openings"), ""});
+    std::vector<std::uint32_t> all(measured.volume.labels.labels.size());
+    std::iota(all.begin(), all.end(), 0U);
+    for (const ObjectQuantities& row : measureObjects(measured.volume, objectsOf(measured.volume, all))) {
+        if (row.label != wall) continue;
+        EXPECT_EQ(row.trust, Trust::Unknown);
+        EXPECT_FALSE(row.netVolume || row.grossVolume || row.sideArea || row.openingArea || row.bound);
+    }
+    EXPECT_FALSE(analyze::solidVolumeOf(measured.volume.labels.labels[wall]));
 }
 
 // Far from the origin of the coordinates.

@@ -199,7 +199,7 @@ private:
             tell(*projection, source, isDegrees, isForeign, heightUnit);
         }
         if (heightUnit != 0 && heightUnit != 1) scaleHeights(heightUnit, isForeign);
-        if (options_.crs == 0) warnOfScale();
+        warnOfScale();
         return {};
     }
 

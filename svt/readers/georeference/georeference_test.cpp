@@ -325,6 +325,9 @@ TEST(Georeference, TheUnitIsThatOfTheUserOrOfTheFileOrPlausible) {
     EXPECT_TRUE(placed(rooms(1), "").result);
     EXPECT_EQ(placed(rooms(1000), "").result.error().code(), Code::UnitInDoubt);
     EXPECT_NE(placed(rooms(1000), "").result.error().message().find("--unit mm"), std::string::npos);
+    model::BuildingModel millimetres;
+    addBox(millimetres, "b", Vec3d{0, 0, 0}, Vec3d{10000, 10000, 3000}, false, "Building");
+    EXPECT_EQ(placed(std::move(millimetres), "").result.error().code(), Code::UnitInDoubt) << "without rooms";
     EXPECT_NE(placed(rooms(100), "local").result.error().message().find("--unit cm"), std::string::npos);
     EXPECT_EQ(placed(rooms(1), "").diagnostics.count(Code::UnitInDoubt), 0u);
     EXPECT_EQ(placed(rooms(8), "").diagnostics.count(Code::UnitInDoubt), 1u) << "rooms of 22 units: a warning";

@@ -15,7 +15,7 @@ namespace {
 
 using std::string_view;
 
-constexpr double kHighestRoom = 100, kHighRoom = 10;  // metres
+constexpr double kHighestRoom = 100, kHighRoom = 10, kHighestBuilding = 1000;  // metres
 
 // Length of a unit by its label in GML or its code; 0: not known.
 double unitLength(string_view label) noexcept {
@@ -64,9 +64,9 @@ double medianSize(const model::BuildingModel& model, std::initializer_list<strin
     return *middle;
 }
 
-double medianRoomHeight(const model::BuildingModel& model) {
+double medianHeight(const model::BuildingModel& model, std::initializer_list<string_view> classes) {
     return medianSize(
-        model, {"BuildingRoom"}, [&](const model::Geometry& geometry) { return model.bounds(geometry); },
+        model, classes, [&](const model::Geometry& geometry) { return model.bounds(geometry); },
         [](Vec3d size) { return size.z; });
 }
 
@@ -78,13 +78,16 @@ Result<double> unitOfModel(const model::BuildingModel& model, string_view labels
     if (stated != 0) return stated;
     if (const double unit = unitLength(wordOf(labels, 1)); unit != 0) return unit < 0.1 ? unit : 1;
     if (heightUnitOf(labels) != 0) return 1;
-    const double height = medianRoomHeight(model);
-    if (!(height > kHighestRoom)) return 1;
+    const double room = medianHeight(model, {"BuildingRoom"});
+    const double building = medianHeight(model, {"Building", "BuildingPart"});
+    const bool areRooms = room > kHighestRoom;
+    if (!areRooms && !(building > kHighestBuilding)) return 1;
+    const double height = areRooms ? room : building;
     return Error(Code::UnitInDoubt,
-                 fmt::format("half of the rooms are {:.0f} units high or more, which cannot be metres, and the file "
+                 fmt::format("half of the {} are {:.0f} units high or more, which cannot be metres, and the file "
                              "names no unit. State the unit of its coordinates, such as --unit {} (or --unit m, if "
                              "they are metres)",
-                             height, height > 1000 ? "mm" : "cm"),
+                             areRooms ? "rooms" : "buildings", height, height > 1000 ? "mm" : "cm"),
                  place);
 }
 
@@ -104,7 +107,7 @@ double medianWidth(const model::BuildingModel& model, std::span<const Vec3d> anc
 }
 
 void warnOfHighRooms(const model::BuildingModel& model, const Place& place, Diagnostics& diagnostics) {
-    const double height = medianRoomHeight(model);
+    const double height = medianHeight(model, {"BuildingRoom"});
     if (!(height > kHighRoom)) return;
     diagnostics.add(
         Severity::Warning, Code::UnitInDoubt,

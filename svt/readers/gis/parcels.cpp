@@ -5,6 +5,8 @@
 #include <svt/crs/crs_facts.hpp>
 #include <svt/crs/crs_name.hpp>
 #include <svt/crs/projection.hpp>
+#include <svt/plane/arrangement.hpp>
+#include <svt/plane/regions.hpp>
 #include <svt/readers/gis/gis_features.hpp>
 
 #include <fmt/format.h>
@@ -108,6 +110,36 @@ std::string attributeOf(const GisFeature& feature, std::initializer_list<std::st
     return {};
 }
 
+// Whether the polygons of a parcel enclose each place at most once: its parts do not overlap, and its rings do not cross.
+// \param polygons  outer rings counter-clockwise, holes clockwise
+bool encloseOnce(const std::vector<std::vector<GisRing>>& polygons) {
+    constexpr double kUnit = 1e-3, kReach = 1 << 29;  // metres; whole numbers of it
+    constexpr std::int32_t kTolerance = 2;
+    Box3d box;
+    for (const auto& rings : polygons)
+        for (const GisRing& ring : rings)
+            for (const Vec3d& p : ring) box.add(p);
+    const double unit = std::max({kUnit, box.size().x / kReach, box.size().y / kReach});
+    const auto placed = [&](Vec3d p) -> plane::Point {
+        return {std::llround((p.x - box.min.x) / unit), std::llround((p.y - box.min.y) / unit)};
+    };
+    std::vector<plane::ClaimSegment> segments;
+    for (const auto& rings : polygons)
+        for (const GisRing& ring : rings)
+            for (std::size_t n = 0; n < ring.size(); ++n) {
+                const plane::Point from = placed(ring[n]), to = placed(ring[(n + 1) % ring.size()]);
+                if (from != to) segments.push_back({from, to, 1, 1});
+            }
+    const auto arranged = plane::arrangeSegments(segments, kTolerance);
+    if (!arranged) return false;
+    bool isOnce = true;
+    static_cast<void>(plane::sweepRegions(*arranged, [&](std::span<const plane::ClaimCount> counts) -> std::uint32_t {
+        for (const plane::ClaimCount& count : counts) isOnce = isOnce && count.winding == 1;
+        return counts.empty() ? 0 : 1;
+    }));
+    return isOnce;
+}
+
 class ParcelMaker {
 public:
     ParcelMaker(double low, double high) : low_(low), high_(high) {}
@@ -116,8 +148,10 @@ public:
         model::Geometry geometry;
         geometry.kind = model::GeometryKind::Solid;
         geometry.lod = 1;
-        for (GisPolygon& polygon : source.polygons) addSolid(polygon, geometry);
-        if (geometry.solids.empty()) return;
+        std::vector<std::vector<GisRing>> tops;
+        for (GisPolygon& polygon : source.polygons)
+            if (std::vector<GisRing> top = topOf(polygon); !top.empty()) tops.push_back(std::move(top));
+        if (tops.empty()) return;
         model::Feature feature;
         feature.className = "Parcel";
         feature.id = attributeOf(source, {"id", "gml_id", "nationalCadastralReference", "localId", "flstkennz",
@@ -127,6 +161,11 @@ public:
             feature.id += fmt::format("-{}", number);
             ids_.insert(feature.id);
         }
+        if (!encloseOnce(tops)) {
+            crossing_.push_back(feature.id);
+            return;
+        }
+        for (const std::vector<GisRing>& top : tops) addSolid(top, geometry);
         feature.name = attributeOf(source, {"name", "label"});
         feature.attributes = std::move(source.attributes);
         feature.geometries.push_back(std::move(geometry));
@@ -134,6 +173,8 @@ public:
     }
 
     [[nodiscard]] std::size_t leftOut() const noexcept { return leftOut_; }
+    // Ids of parcels whose parts overlap, or whose rings cross.
+    [[nodiscard]] const std::vector<std::string>& crossing() const noexcept { return crossing_; }
     [[nodiscard]] model::BuildingModel take() { return std::move(model_); }
 
 private:
@@ -146,12 +187,13 @@ private:
         solid.exterior.push_back({model_.addPolygon(std::move(face)), false});
     }
 
-    void addSolid(GisPolygon& polygon, model::Geometry& geometry) {
+    // The rings of a polygon at the upper height; empty if its outer ring is left out.
+    std::vector<GisRing> topOf(GisPolygon& polygon) {
         std::vector<GisRing> top;
         for (GisRing& ring : polygon.rings) {
             if (!gis::tidyRing(ring)) {
                 ++leftOut_;
-                if (top.empty()) return;
+                if (top.empty()) return top;
                 continue;
             }
             // Seen from above: the outer ring counter-clockwise, holes clockwise.
@@ -159,7 +201,10 @@ private:
             for (Vec3d& p : ring) p.z = high_;
             top.push_back(ring);
         }
-        if (top.empty()) return;
+        return top;
+    }
+
+    void addSolid(const std::vector<GisRing>& top, model::Geometry& geometry) {
         model::Solid solid;
         addFace(top, solid);
         std::vector<GisRing> bottom = top;
@@ -180,6 +225,7 @@ private:
     model::BuildingModel model_;
     std::set<std::string> ids_;
     std::size_t leftOut_ = 0;
+    std::vector<std::string> crossing_;
 };
 
 }  // namespace
@@ -194,10 +240,20 @@ Result<model::BuildingModel> readParcels(const std::filesystem::path& path, cons
     std::size_t number = 0;
     for (GisFeature& feature : file->features) maker.add(feature, ++number);
     const std::size_t leftOut = maker.leftOut();
+    if (diagnostics != nullptr)
+        for (const std::string& id : maker.crossing())
+            diagnostics->add(Severity::Warning, Code::RingsIntersect,
+                             "the parts of this parcel overlap, or its rings cross, so its area is not defined; it is "
+                             "left out. Repair its polygons",
+                             {path.string(), 0, 0, id});
+    const bool isAnyCrossing = !maker.crossing().empty();
     model::BuildingModel model = maker.take();
     model.source = path.filename().string();
     if (model.features.empty())
-        return Error(Code::EmptyModel, "no polygons; export the parcels as polygons", {path.string(), 0, 0, {}});
+        return Error(Code::EmptyModel,
+                     isAnyCrossing ? "no parcel has polygons without crossing rings or overlapping parts; repair them"
+                                   : "no polygons; export the parcels as polygons",
+                     {path.string(), 0, 0, {}});
     const auto warn = [&](Code code, std::size_t count, std::string_view what) {
         if (count > 0 && diagnostics != nullptr)
             diagnostics->add(Severity::Warning, code, fmt::format("{} {}", count, what), {path.string(), 0, 0, {}});

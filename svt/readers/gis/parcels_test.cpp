@@ -205,5 +205,33 @@ TEST(OwnerTables, OfTextAreTheFileItself) {
     EXPECT_EQ(readOwnerTable(folder / "none.csv").error().code(), Code::CannotOpen);
 }
 
+TEST(Parcels, WhoseRingsCrossOrPartsOverlapAreLeftOut) {
+    const auto withParcel = [](const std::string& coordinates) {
+        std::string text = kTwoParcels;
+        const std::string point = R"({"type":"Point","coordinates":[1,2]})";
+        text.replace(text.find(point), point.size(), R"({"type":"MultiPolygon","coordinates":)" + coordinates + "}");
+        return read(text);
+    };
+    const std::string square =
+        "[[[500050,5400000],[500060,5400000],[500060,5400010],[500050,5400010],[500050,5400000]]]";
+    const std::string beside =
+        "[[[500060,5400000],[500070,5400000],[500070,5400010],[500060,5400010],[500060,5400000]]]";
+    const std::string over = "[[[500055,5400000],[500065,5400000],[500065,5400010],[500055,5400010],[500055,5400000]]]";
+    const std::string bow = "[[[500050,5400000],[500060,5400010],[500060,5400000],[500050,5400012],[500050,5400000]]]";
+    for (const std::string& good : {"[" + square + "]", "[" + square + "," + beside + "]"}) {
+        const Read whole = withParcel(good);
+        ASSERT_TRUE(whole.model) << whole.model.error().toString();
+        EXPECT_EQ(whole.model->features.size(), 3u) << good;
+        EXPECT_EQ(whole.findings.count(Code::RingsIntersect), 0u);
+    }
+    for (const std::string& bad :
+         {"[" + square + "," + over + "]", "[" + square + "," + square + "]", "[" + bow + "]"}) {
+        const Read left = withParcel(bad);
+        ASSERT_TRUE(left.model) << left.model.error().toString();
+        EXPECT_EQ(left.model->features.size(), 2u) << bad;
+        EXPECT_EQ(left.findings.count(Code::RingsIntersect), 1u);
+    }
+}
+
 }  // namespace
 }  // namespace svt::readers::gis

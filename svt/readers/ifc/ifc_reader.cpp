@@ -214,8 +214,11 @@ private:
         addDrawingFacts(file_, product, map_, feature);
         if (number == northBearer_ && map_.trueNorthDegrees)
             feature.attributes.push_back({"trueNorth", *map_.trueNorthDegrees, "deg"});
-        const string_view predefined = fields[predefinedTypeOf(product.ifcType)].enumeration();
-        if (product.kind == ProductKind::Element && predefined.size() > 1)
+        // IFC2x3 has InteriorOrExteriorSpace at the place of the PredefinedType of a space.
+        const bool isSpace = product.ifcType == "IfcSpace";
+        const string_view predefined =
+            fields[isSpace ? at::Space::PredefinedType : predefinedTypeOf(product.ifcType)].enumeration();
+        if ((product.kind == ProductKind::Element || isSpace) && predefined.size() > 1)
             feature.attributes.push_back({"predefinedType", std::string(predefined), ""});
         if (product.ifcType == "IfcDoor" || product.ifcType == "IfcDoorStandardCase")
             addDoorOperation(product.record, properties, feature);
@@ -454,6 +457,7 @@ private:
         if (!what.empty()) {
             ++partial_;
             warn(Code::ReadInPart, fmt::format("this {} was read in part; left out: {}", type, what), where);
+            feature.attributes.push_back({std::string(model::kReadInPartAttribute), what, ""});
         }
         if (shape.isBoundingBox) feature.attributes.push_back({"shape", std::string("bounding box"), ""});
         const auto style = styles.ofMaterial.find(properties.mainMaterial(structure_.products[number].record));
@@ -631,6 +635,11 @@ Result<model::BuildingModel> readIfc(std::span<const std::byte> bytes, string_vi
     if (bytes.size() > options.maxBytes)
         return Error(Code::InputTooBig,
                      fmt::format("the file has {} bytes, the limit is {}", bytes.size(), options.maxBytes),
+                     {std::string(name), 0, 0, {}});
+    if (options.unit != 0 || options.axisOrder != 0)
+        return Error(Code::BadArgument,
+                     "--unit and --axis-order are for GML and CityJSON; an IFC file states its unit and the directions "
+                     "of its axes",
                      {std::string(name), 0, 0, {}});
     string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());

@@ -519,6 +519,36 @@ TEST(IfcReader, TheLevelOfAStoreyIsInTheCoordinatesOfTheModel) {
                 113, 1e-9);
 }
 
+TEST(IfcReader, TrueNorthOfThreeRatiosIsReadOrUnknown) {
+    const auto northOf = [](const std::string& ratios, std::string& findings) {
+        std::string text = ifcFile(
+            "#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n#41=IFCDIRECTION((" + ratios + "));\n" + std::string(kBox),
+            "#100");
+        const std::string context = "1.E-05,#14,$);";
+        text.replace(text.find(context), context.size(), "1.E-05,#14,#41);");
+        Diagnostics log;
+        const auto model = readText(text, &log);
+        EXPECT_TRUE(model);
+        for (const Diagnostic& d : log.items()) findings += d.toString();
+        std::optional<double> north;
+        for (const model::Feature& feature : model->features)
+            for (const Attribute& a : feature.attributes)
+                if (a.name == "trueNorth") north = std::get<double>(a.value);
+        return north;
+    };
+    std::string findings;
+    const auto counted = northOf("2.,6.12303176911189E-17,1.", findings);
+    ASSERT_TRUE(counted);
+    EXPECT_NEAR(*counted, 0, 1e-9);
+    EXPECT_NE(findings.find("three ratios"), std::string::npos) << findings;
+    findings.clear();
+    EXPECT_FALSE(northOf("0.,0.6,0.8", findings));
+    EXPECT_NE(findings.find("not level"), std::string::npos) << findings;
+    findings.clear();
+    EXPECT_NEAR(northOf("0.,1.,0.", findings).value_or(9), 0, 1e-9) << "a level direction of three ratios";
+    EXPECT_EQ(findings.find("true north"), std::string::npos) << findings;
+}
+
 TEST(IfcReader, TrueNorthTurnsWithTheMap) {
     const auto northOf = [](const std::string& conversion, const std::string& site = "") {
         std::string text = ifcFile(std::string("#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n"

@@ -192,6 +192,41 @@ TEST(IfcShapes, SweptDisksWithBends) {
     expectVolume(ifcWithItem("#200=IFCSWEPTDISKSOLID(#301,20.,10.,$,$);\n" + points), 2 * kPiTest * 0.0003, 1e-6);
 }
 
+// Closed lines in a plane and in space: the volume of a bent bar is that of its straight parts.
+TEST(IfcShapes, SweptDisksAlongClosedLines) {
+    const auto bar = [](const std::vector<Vec3d>& points) {
+        std::string records = "#200=IFCSWEPTDISKSOLID(#301,50.,$,$,$);\n", list;
+        double length = 0;
+        for (std::size_t n = 0; n < points.size(); ++n) {
+            const Vec3d p = points[n];
+            records += fmt::format("#{}=IFCCARTESIANPOINT(({:f},{:f},{:f}));\n", 310 + n, p.x, p.y, p.z);
+            list += fmt::format("#{},", 310 + n);
+            length += svt::length(points[(n + 1) % points.size()] - p) / 1000;
+        }
+        expectVolume(ifcWithItem(records + "#301=IFCPOLYLINE((" + list + "#310));\n"), length * kPiTest * 0.0025, 3e-3);
+    };
+    bar({{0, 0, 0}, {1000, 0, 0}, {1000, 1000, 0}, {0, 1000, 0}});
+    bar({{0, 0, 0}, {1000, 0, 0}, {1000, 1000, 0}, {1000, 1000, 1000}, {0, 1000, 1000}, {0, 0, 1000}});
+    bar({{0, 0, 0}, {1000, 0, 300}, {1200, 900, 0}, {100, 800, 500}});
+    std::vector<Vec3d> ring;
+    for (int n = 0; n < 8; ++n) ring.push_back({1000 * std::cos(kPiTest * n / 4), 1000 * std::sin(kPiTest * n / 4), 0});
+    bar(ring);
+}
+
+TEST(IfcShapes, EndsOfSweptDisksAtParametersAreNamed) {
+    const std::string points =
+        "#310=IFCCARTESIANPOINT((0.,0.,0.));\n#311=IFCCARTESIANPOINT((1000.,0.,0.));\n"
+        "#312=IFCCARTESIANPOINT((1000.,1000.,0.));\n#301=IFCPOLYLINE((#310,#311,#312));\n"
+        "#302=IFCPOLYLINE((#310,#311));\n";
+    const auto findingsOf = [&](const char* disk) {
+        return readShapeOf(ifcWithItem(fmt::format("#200=IFCSWEPTDISKSOLID({});\n", disk) + points)).findings;
+    };
+    for (const char* part : {"#301,20.,$,0.,1.", "#301,20.,$,0.,0.5", "#301,20.,$,1.,2."})
+        EXPECT_NE(findingsOf(part).find("ReadInPart"), std::string::npos) << part;
+    for (const char* whole : {"#301,20.,$,0.,2.", "#301,20.,$,$,$", "#302,20.,$,0.,1.", "#301,20.,$,0.,2000."})
+        EXPECT_EQ(findingsOf(whole), "") << whole;
+}
+
 // A profile of 200 x 300 mm along an L of 2 m and 3 m, with a mitre, and along a circle of radius 1 m.
 TEST(IfcShapes, ProfilesAlongCurves) {
     const std::string rest =

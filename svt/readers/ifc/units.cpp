@@ -36,13 +36,31 @@ RecordIndex modelContext(const IfcFile& file, RecordIndex project) {
 }
 
 // True north in the axes of the project, of the first context that states it. Contexts of models precede those of plans.
-std::optional<Vec3d> trueNorth(const IfcFile& file, RecordIndex project) {
+// \param finding  receives a defect of the direction, which has two ratios by the schema
+std::optional<Vec3d> trueNorth(const IfcFile& file, RecordIndex project, std::string& finding) {
+    constexpr double kUnit = 1e-6;
+
     std::vector<RecordIndex> contexts = file.followAll(project, at::Project::RepresentationContexts);
     contexts.insert(contexts.begin(), modelContext(file, project));
     for (const RecordIndex context : contexts) {
         if (file.entityOf(context) != Entity::GeometricRepresentationContext) continue;
         const auto north = file.direction(file.fieldsOf(context)[at::GeometricRepresentationContext::TrueNorth]);
-        if (north && std::hypot(north->x, north->y) > 0) return north;
+        if (!north) continue;
+        // An exporter writes the number of ratios before them: (2., 6.1E-17, 1.).
+        if (north->x == 2 && std::abs(std::hypot(north->y, north->z) - 1) < kUnit) {
+            finding = fmt::format(
+                "the direction of true north has three ratios, ({:g}, {:g}, {:g}), instead of two; the "
+                "first is their number, and the others count",
+                north->x, north->y, north->z);
+            return Vec3d{north->y, north->z, 0};
+        }
+        if (std::abs(north->z) > kUnit * length(*north)) {
+            finding =
+                fmt::format("the direction of true north, ({:g}, {:g}, {:g}), is not level; true north is unknown",
+                            north->x, north->y, north->z);
+            return std::nullopt;
+        }
+        if (std::hypot(north->x, north->y) > 0) return north;
     }
     return std::nullopt;
 }
@@ -306,7 +324,10 @@ MapPlace readMapPlace(const IfcFile& file, RecordIndex project, const Place& whe
                             where);
         if (place.crs.empty()) place.crs = std::move(ofSets.crs);
     }
-    if (const auto north = trueNorth(file, project)) {
+    std::string finding;
+    const auto north = trueNorth(file, project, finding);
+    if (!finding.empty()) diagnostics.add(Severity::Warning, Code::BadValue, std::move(finding), where);
+    if (north) {
         const Vec3d onMap = place.mapFromProject.direction(*north);
         place.trueNorthDegrees = std::atan2(onMap.x, onMap.y) * 180 / std::numbers::pi;
     }

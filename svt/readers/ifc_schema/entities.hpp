@@ -21,6 +21,7 @@ namespace svt::readers::ifc {
     E(Root, None, GlobalId, OwnerHistory, Name, Description) E(Object, Root, ObjectType) \
     E(Product, Object, ObjectPlacement, Representation) E(SpatialElement, Product, LongName) \
     E(SpatialZone, SpatialElement, PredefinedType) E(SpatialStructureElement, SpatialElement, CompositionType) \
+    E(Space, SpatialStructureElement, PredefinedType) \
     E(Site, SpatialStructureElement, RefLatitude, RefLongitude, RefElevation, LandTitleNumber, SiteAddress) \
     E(Building, SpatialStructureElement, ElevationOfRefHeight, ElevationOfTerrain, BuildingAddress) \
     E(PostalAddress, None, Purpose, Description, UserDefinedPurpose, InternalLocation, AddressLines, PostalBox, Town, \
@@ -113,7 +114,7 @@ namespace svt::readers::ifc {
     E(SectionedSolidHorizontal, None, Directrix, CrossSections, CrossSectionPositions, FixedAxisVertical) \
     E(SectionedSpine, None, SpineCurve, CrossSections, CrossSectionPositions) \
     E(AnnotationFillArea, None, OuterBoundary, InnerBoundaries) \
-    E(SweptDiskSolid, None, Directrix, Radius, InnerRadius) \
+    E(SweptDiskSolid, None, Directrix, Radius, InnerRadius, StartParam, EndParam) \
     E(SweptDiskSolidPolygonal, SweptDiskSolid) E(FacetedBrep, ManifoldSolidBrep) \
     E(FacetedBrepWithVoids, FacetedBrep, Voids) E(AdvancedBrep, ManifoldSolidBrep) \
     E(AdvancedBrepWithVoids, AdvancedBrep, Voids) E(ConnectedFaceSet, None, CfsFaces) \

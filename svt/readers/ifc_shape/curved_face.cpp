@@ -199,7 +199,21 @@ std::optional<Surface> readExtrusion(const IfcFile& file, RecordIndex record) {
     return surface;
 }
 
-constexpr int kMaxSplineStrips = 32;
+constexpr int kMaxSplineStrips = 32, kMaxTwistStrips = 64;
+
+// Whether the triangles of a cell, on either diagonal, leave the surface by more than kChordError. Straight lines of equal parameter may
+// still be twisted against each other, as on a hyperbolic paraboloid.
+bool isTwisted(const Spline& spline, int countU, int countV) {
+    const auto point = [&](double u, double v) {
+        return spline.at({spline.sizeU() * u / countU, spline.sizeV() * v / countV, 0});
+    };
+    for (int i = 0; i < countU; ++i)
+        for (int j = 0; j < countV; ++j) {
+            const Vec3d twist = (point(i, j) - point(i + 1, j) + point(i + 1, j + 1) - point(i, j + 1)) / 4;
+            if (length(twist) > kChordError) return true;
+        }
+    return false;
+}
 
 // The number of equal strips along one parameter whose chords stay within kChordError of the surface.
 int splineStrips(const Spline& spline, bool isAlongU) {
@@ -253,8 +267,13 @@ std::optional<Surface> readSpline(const IfcFile& file, RecordIndex record) {
     spline.scaleV = lengthV / (spline.surface.v.end() - spline.surface.v.begin());
     if (isClosedU) surface.periodU = spline.sizeU();
     if (isClosedV) surface.periodV = spline.sizeV();
-    surface.stepU = spline.sizeU() / splineStrips(spline, true);
-    surface.stepV = spline.sizeV() / splineStrips(spline, false);
+    int stripsU = splineStrips(spline, true), stripsV = splineStrips(spline, false);
+    while (std::min(stripsU, stripsV) < kMaxTwistStrips && isTwisted(spline, stripsU, stripsV)) {
+        stripsU = std::min(2 * stripsU, kMaxTwistStrips);
+        stripsV = std::min(2 * stripsV, kMaxTwistStrips);
+    }
+    surface.stepU = spline.sizeU() / stripsU;
+    surface.stepV = spline.sizeV() / stripsV;
     return surface;
 }
 

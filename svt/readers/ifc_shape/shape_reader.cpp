@@ -230,14 +230,7 @@ void ShapeReader::readDirectedSweep(RecordIndex item, const Fields& fields, Bodi
             return leaveOut(fmt::format("a profile swept along a curve on {}", file_.typeName(surface)));
         reference = file_.axes(file_.follow(surface, at::Plane::Position)).z;
     }
-    // Writers disagree about parameters. A part of a curve would need the parameter of each kind of curve.
-    const double begin = fields[swept::StartParam].number().value_or(0),
-                 end = fields[swept::EndParam].number().value_or(1);
-    double whole = 0;
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) whole += length(line[i + 1] - line[i]);
-    const auto isEnd = [&](double value) { return std::abs(end - value) <= 1e-3 * value; };
-    const auto isWhole = begin == 0 && (isEnd(1) || isEnd(double(line.size() - 1)) || isEnd(whole / file_.lengthUnit));
-    if (!isWhole)
+    if (!isWholeCurve(line, fields[swept::StartParam], fields[swept::EndParam]))
         leaveOut("the ends of a swept profile, which stand at parameters of its curve: it has the whole curve");
     const Transform position = file_.axes(fields[swept::Position]);
     for (const Region& region : regions) {
@@ -246,10 +239,27 @@ void ShapeReader::readDirectedSweep(RecordIndex item, const Fields& fields, Bodi
     }
 }
 
+// Writers disagree about parameters: from 0 to 1, to the number of segments, or to the length. A part of a curve would need
+// the parameter of each kind of curve.
+bool ShapeReader::isWholeCurve(const std::vector<Vec3d>& line, Value first, Value last) const {
+    const double begin = first.number().value_or(0), end = last.number().value_or(1);
+    double whole = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) whole += length(line[i + 1] - line[i]);
+    const auto isEnd = [&](double value) { return std::abs(end - value) <= 1e-3 * value; };
+    return begin == 0 && (isEnd(1) || isEnd(double(line.size() - 1)) || isEnd(whole / file_.lengthUnit));
+}
+
 void ShapeReader::readDisk(const Fields& fields, Bodies& bodies) {
     std::vector<Vec3d> line;
     std::string why;
-    if (!readCurve(file_, file_.follow(fields[at::SweptDiskSolid::Directrix]), line, why)) return leaveOut(why);
+    const RecordIndex directrix = file_.follow(fields[at::SweptDiskSolid::Directrix]);
+    if (!readCurve(file_, directrix, line, why)) return leaveOut(why);
+    const Value first = fields[at::SweptDiskSolid::StartParam], last = fields[at::SweptDiskSolid::EndParam];
+    // At 1, a polyline has its second point.
+    const bool isFirstSegment =
+        file_.entityOf(directrix) == Entity::Polyline && line.size() > 2 && last.number().value_or(0) == 1;
+    if (isFirstSegment || !isWholeCurve(line, first, last))
+        leaveOut("the ends of a swept disk, which stand at parameters of its curve: it has the whole curve");
     if (!affords(line.size() * 2 * 6 * kMaxDiskSegments)) return;
     Polygons faces = sweepDisk(std::move(line), file_.metres(fields[at::SweptDiskSolid::Radius]),
                                file_.metres(fields[at::SweptDiskSolid::InnerRadius]));
@@ -666,15 +676,38 @@ void ShapeReader::evaluate(std::string_view op, const Bodies& first, const Bodie
     for (const Body& body : first) {
         std::vector<Polygons> all{body.faces};
         all.insert(all.end(), operands.begin(), operands.end());
-        auto result = evaluateBoolean(
-            op == "INTERSECTION" ? BooleanOperator::Intersection : BooleanOperator::Difference, all, file_.guard());
+        std::size_t failed = 0;
+        auto result = op == "INTERSECTION" ? evaluateBoolean(BooleanOperator::Intersection, all, file_.guard())
+                                           : differenceOf(std::move(all), failed);
+        if (!result || failed > 0) leaveOut(fmt::format("a {}: its result is not closed", op));
         if (!result) {
-            leaveOut(fmt::format("a {}: its result is not closed", op));
             bodies.push_back(body);
         } else if (!result->empty()) {
             addBody({std::move(*result), true, body.material}, bodies);
         }
     }
+}
+
+// The first body without the others. If its result is not closed, the others are taken away one after the other.
+// \param failed  receives the number of those that are left out
+// \return the result, or nothing if all are left out
+std::optional<Polygons> ShapeReader::differenceOf(std::vector<Polygons> bodies, std::size_t& failed) {
+    if (auto whole = evaluateBoolean(BooleanOperator::Difference, bodies, file_.guard())) return whole;
+    failed = 0;
+    Polygons rest = std::move(bodies.front());
+    bool isCut = false;
+    for (std::size_t n = 1; n < bodies.size(); ++n) {
+        auto next = bodies.size() == 2 || rest.empty()
+                        ? std::nullopt
+                        : evaluateBoolean(BooleanOperator::Difference, std::vector{rest, bodies[n]}, file_.guard());
+        if (!next) {
+            failed += rest.empty() ? 0 : 1;
+            continue;
+        }
+        rest = std::move(*next);
+        isCut = true;
+    }
+    return isCut ? std::optional(std::move(rest)) : std::nullopt;
 }
 
 void ShapeReader::subtract(Shape& shape, const Bodies& openings) {
@@ -706,9 +739,10 @@ void ShapeReader::subtract(Shape& shape, const Bodies& openings) {
             result.push_back(std::move(body));
             continue;
         }
-        auto cut = evaluateBoolean(BooleanOperator::Difference, all, file_.guard());
+        std::size_t failed = 0;
+        auto cut = differenceOf(std::move(all), failed);
+        if (failed > 0) leave(fmt::format("{} openings: the body would not be closed with them", failed));
         if (!cut) {
-            leave("openings: the body would not be closed with them");
             result.push_back(std::move(body));
         } else if (!cut->empty()) {
             result.push_back({std::move(*cut), true, body.material});

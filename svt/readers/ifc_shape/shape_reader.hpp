@@ -55,6 +55,7 @@ private:
     void readMap(RecordIndex map);
     void readSweep(RecordIndex item, const Fields& fields, Bodies& bodies);
     void readDirectedSweep(RecordIndex item, const Fields& fields, Bodies& bodies);
+    [[nodiscard]] bool isWholeCurve(const std::vector<Vec3d>& line, Value first, Value last) const;
     void readDisk(const Fields& fields, Bodies& bodies);
     void readBrep(RecordIndex item, const Fields& fields, Bodies& bodies);
     void addShell(RecordIndex shell, Bodies& bodies);
@@ -64,6 +65,8 @@ private:
     bool readChain(const Fields& fields, Chain& chain, ReadGuard::Scope& scope);
     bool readHalfSpace(RecordIndex item, const Box3d& around, Bodies& bodies);
     bool readOperand(RecordIndex operand, std::string_view op, const Box3d& around, Bodies& bodies);
+    std::optional<std::vector<model::Polygon>> differenceOf(std::vector<std::vector<model::Polygon>> bodies,
+                                                            std::size_t& failed);
     void evaluate(std::string_view op, const Bodies& first, const Bodies& second, Bodies& bodies);
     void addBody(Body body, Bodies& bodies);
     void addSolid(std::vector<model::Polygon> faces, Bodies& bodies, RecordIndex item);

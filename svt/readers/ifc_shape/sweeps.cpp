@@ -75,7 +75,44 @@ Ring mitre(const Ring& before, Vec3d at, Vec3d direction, Vec3d next) {
     return ring;
 }
 
-// Rings of a tube along a line; the last equals the first if the line is closed.
+// The part of a vector across a direction.
+Vec3d across(Vec3d v, Vec3d direction) noexcept { return v - direction * dot(v, direction); }
+
+// A ring that is turned about the bar, within its plane.
+Ring spun(const Ring& ring, Vec3d at, Vec3d direction, Vec3d normal, double angle) {
+    const auto [sine, cosine] = sineCosine(angle);
+    const double along = std::max(dot(direction, normal), 0.05);
+    Ring result;
+    for (const Vec3d p : ring) {
+        const Vec3d flat = across(p - at, direction);
+        const Vec3d turned = flat * cosine + cross(direction, flat) * sine;
+        result.push_back(at + turned - direction * (dot(turned, normal) / along));
+    }
+    return result;
+}
+
+// Rings that were carried around a closed line come back turned by an angle. Whole corners of it are a shift of the corners,
+// and all rings share the rest.
+void closeRings(std::vector<Ring>& rings, const Ring& line) {
+    const std::size_t n = line.size(), count = rings.front().size();
+    const auto directionOf = [&](std::size_t s) { return normalized(line[(s + 1) % n] - line[s % n]); };
+    const Vec3d first = directionOf(0), a = across(rings.front()[0] - line[0], first),
+                b = across(rings.back()[0] - line[0], first);
+    const double step = 2 * kPi / double(count), angle = std::atan2(dot(first, cross(a, b)), dot(a, b));
+    const double corners = std::round(angle / step), rest = angle - corners * step;
+    double whole = 0, passed = 0;
+    for (std::size_t s = 0; s < n; ++s) whole += length(line[(s + 1) % n] - line[s]);
+    for (std::size_t s = 1; s < n; ++s) {
+        passed += length(line[s] - line[s - 1]);
+        const Vec3d before = directionOf(s - 1), sum = before + directionOf(s);
+        const Vec3d normal = length(sum) > 1e-6 ? normalized(sum) : before;
+        rings[s] = spun(rings[s], line[s], before, normal, -rest * passed / whole);
+    }
+    const auto shift = static_cast<std::size_t>(corners + double(count)) % count;
+    for (std::size_t i = 0; i < count; ++i) rings.back()[i] = rings.front()[(i + shift) % count];
+}
+
+// Rings of a tube along a line; the last has the corners of the first if the line is closed.
 std::vector<Ring> tube(const Ring& line, bool isClosed, double radius) {
     const std::size_t n = line.size();
     const auto directionOf = [&](std::size_t segment) {
@@ -92,7 +129,7 @@ std::vector<Ring> tube(const Ring& line, bool isClosed, double radius) {
         ring.push_back(axes.point({outwards * cosine, outwards * sine, 0}));
     }
     std::vector<Ring> rings;
-    if (isClosed) ring = mitre(ring, line[0], directionOf(n - 1), first);
+    if (isClosed) ring = mitre(ring, line[0], first, directionOf(n - 1));
     rings.push_back(ring);
     const std::size_t segments = isClosed ? n : n - 1;
     for (std::size_t s = 0; s < segments; ++s) {
@@ -100,7 +137,7 @@ std::vector<Ring> tube(const Ring& line, bool isClosed, double radius) {
         rings.push_back(
             mitre(rings.back(), line[(s + 1) % n], directionOf(s), isEnd ? directionOf(s) : directionOf(s + 1)));
     }
-    if (isClosed) rings.back() = rings.front();  // else the frame might be turned by a part of a turn
+    if (isClosed) closeRings(rings, line);
     return rings;
 }
 

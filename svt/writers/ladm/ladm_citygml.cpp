@@ -2,6 +2,7 @@
 #include <svt/crs/crs_facts.hpp>
 #include <svt/crs/crs_name.hpp>
 #include <svt/writers/ade/model_document.hpp>
+#include <svt/writers/ladm/ladm_owner.hpp>
 #include <svt/writers/ladm_writer.hpp>
 
 #include <fmt/format.h>
@@ -113,7 +114,10 @@ private:
         if (building != kNoLabel) text_ += fmt::format("<gml:name>{}</gml:name>", xmlContent(labelOf(building).name));
         text_ += '\n';
         for (const std::uint32_t space : spaces)
-            if (all_.spaces.spaces[space].label == building) addAttributes(space);
+            if (all_.spaces.spaces[space].label == building) {
+                addAttributes(space);
+                addBody(space, id);
+            }
         for (const std::uint32_t space : spaces)
             if (all_.spaces.spaces[space].label != building) addUnit(space);
         text_ += "</bldg:Building>\n</core:cityObjectMember>\n";
@@ -134,7 +138,10 @@ private:
     void addAttributes(std::uint32_t index) {
         const LegalSpace& space = all_.spaces.spaces[index];
         const volume::Label& label = labelOf(space.label);
-        for (const Attribute& attribute : label.attributes) text_ += inFeature(typedAttribute(attribute));
+        for (const Attribute& attribute : label.attributes)
+            if (!isReplacedOwner(all_, attribute.name)) text_ += inFeature(typedAttribute(attribute));
+        if (const std::string owner = soleOwner(all_, index); !owner.empty())
+            text_ += inFeature(stringAttribute("owner", owner));
         std::vector<std::string> spatial{stringAttribute("suID", label.id), stringAttribute("class", label.className),
                                          stringAttribute("body", analyze::spaceBodyName(space.body)),
                                          stringAttribute("common", space.isCommon ? "true" : "false")};

@@ -2,6 +2,7 @@
 // parties, sources, boundary faces and relations.
 #include <svt/core/text.hpp>
 #include <svt/crs/crs_name.hpp>
+#include <svt/writers/ladm/ladm_owner.hpp>
 #include <svt/writers/ladm_writer.hpp>
 
 #include <fmt/format.h>
@@ -89,6 +90,8 @@ private:
             parent["attributes"]["name"] = labelOf(building).name;
         if (space.label == building) {
             addAttributes(index, parent);
+            if (OrderedJson geometry = bodyOf(index); !geometry.is_null())
+                parent["geometry"] = OrderedJson::array({std::move(geometry)});
             return;
         }
         parent["children"].push_back(label.id);  // the last use of `parent`: a new object moves the others
@@ -106,10 +109,11 @@ private:
         OrderedJson& attributes = object["attributes"];
         for (const AttributeList& list : attributeLists(label.attributes)) {
             const std::string name(list.name);
-            if (name.starts_with('+') || attributes.contains(name)) continue;
+            if (name.starts_with('+') || attributes.contains(name) || isReplacedOwner(all_, name)) continue;
             attributes[name] =
                 list.isSingle() ? jsonOf(list.items.front().attribute->value) : OrderedJson::parse(toJsonText(list));
         }
+        if (const std::string owner = soleOwner(all_, index); !owner.empty()) attributes["owner"] = owner;
         attributes["+LA_LegalSpaceBuildingUnit"] = {{"suID", label.id},
                                                     {"class", label.className},
                                                     {"body", analyze::spaceBodyName(space.body)},

@@ -3,6 +3,7 @@
 #include <svt/analyze/extents.hpp>
 #include <svt/core/text.hpp>
 #include <svt/crs/crs_name.hpp>
+#include <svt/writers/ladm/ladm_owner.hpp>
 #include <svt/writers/ladm/step_records.hpp>
 #include <svt/writers/ladm_writer.hpp>
 
@@ -103,9 +104,12 @@ private:
         const std::string id = label == kNoLabel ? "legal_spaces" : labelOf(label).id;
         const std::string name = label == kNoLabel ? "" : labelOf(label).name;
         const int place = records_.add("IFCLOCALPLACEMENT", fmt::format("#{},#{}", place_, axes({})));
-        const int building =
-            records_.rooted("IFCBUILDING", id,
-                            fmt::format("{},$,$,#{},$,$,.ELEMENT.,$,$,$", stepString(name.empty() ? id : name), place));
+        std::string body = "$";
+        for (const std::uint32_t space : spaces)
+            if (all_.spaces.spaces[space].label == label) body = shapeOf(bodyOf(space));
+        const int building = records_.rooted(
+            "IFCBUILDING", id,
+            fmt::format("{},$,$,#{},{},$,.ELEMENT.,$,$,$", stepString(name.empty() ? id : name), place, body));
         std::vector<int> zones, rooms;
         std::map<std::uint32_t, int> roomOf;  // by label
         for (const std::uint32_t space : spaces) {
@@ -249,6 +253,8 @@ private:
                                          {"spatialSource", textValue(all_.spatialFile)}};
         addVolume("volume", space.totalVolume, properties);
         addVolume("bodyVolume", space.bodyVolume, properties);
+        if (const std::string owner = soleOwner(all_, index); !owner.empty())
+            properties.emplace_back("owner", textValue(owner));
         addSet("LA_LegalSpaceBuildingUnit", label.id, product, properties);
         std::array<int, 3> count{};
         for (const analyze::PartyRight& right : all_.rights) {

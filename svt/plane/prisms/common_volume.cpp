@@ -1,10 +1,10 @@
-#include <svt/analyze/overlaps/common_volume.hpp>
+#include <svt/plane/common_volume.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
-namespace svt::analyze {
+namespace svt::plane {
 namespace {
 
 struct PlanPoint {
@@ -154,4 +154,4 @@ double commonVolume(std::span<const RoofTriangle> a, std::span<const RoofTriangl
     return sum;
 }
 
-}  // namespace svt::analyze
+}  // namespace svt::plane

@@ -19,7 +19,7 @@
 #include <span>
 #include <vector>
 
-namespace svt::analyze {
+namespace svt::plane {
 
 /// A triangle that is not upright, prepared: local space, metres.
 struct RoofTriangle {
@@ -44,4 +44,4 @@ struct RoofTriangle {
 /// \param ground  a height below all triangles, close to them to limit rounding
 [[nodiscard]] double commonVolume(std::span<const RoofTriangle> a, std::span<const RoofTriangle> b, double ground);
 
-}  // namespace svt::analyze
+}  // namespace svt::plane
