@@ -694,7 +694,7 @@ def beside_the_paper(figures):
             ["800 x 700 x 400", "memory", "214 MB", f"{stage(rows, 'make-bricks', 'fzk-haus', 'size'):.1f} MB"],
             ["", "frames a second", "42", rate("opaque-frame")],
             ["", "with the model's edges inside the volume", "10", rate("wireframe")],
-            ["", "a lens that moves", "not told", rate("lens-frame")],
+            ["", "a lens that moves", "not stated", rate("lens-frame")],
             [
                 "1000 x 1200 x 600",
                 "frames a second",

@@ -15,8 +15,8 @@ namespace svt::fields {
 /// A sensor in no room, such as one on a wall, belongs to the nearest room within this distance.
 inline constexpr double kWallReach = 0.25;  // metres
 
-/// The voxel of a place if accepts(voxel), else the nearest such voxel within `reach` metres and 32 voxels; the first by z, y, x
-/// of equally near ones.
+/// The voxel of a place if accepts(voxel), else the nearest such voxel within `reach` metres and 32 voxels; the first
+/// by z, y, x of equally near ones.
 /// \param index  of the place, index space
 template <class Accepts>
 [[nodiscard]] std::optional<Vec3i> nearestVoxel(const volume::Grid& grid, Vec3d index, double reach,

@@ -16,6 +16,7 @@ constexpr auto kUnits = std::to_array<Unit>({
     {"[ppb]", "ppb", "ppb"},
     {"Cel", "°C", "C|°C|degC|deg_C|celsius|degree_celsius|degrees_celsius"},
     {"K", "K", "kelvin|degK"},
+    {"[degF]", "°F", "F|°F|degF|deg_F|fahrenheit|degree_fahrenheit|degrees_fahrenheit"},
     {"m", "m", "metre|meter|metres|meters"},
     {"cm", "cm", ""},
     {"mm", "mm", ""},
@@ -104,6 +105,8 @@ std::optional<UnitConversion> unitConversion(std::string_view from, std::string_
     if (from == to) return UnitConversion{};
     if (from == "K" && to == "Cel") return UnitConversion{1, -kZeroCelsius};
     if (from == "Cel" && to == "K") return UnitConversion{1, kZeroCelsius};
+    if (from == "[degF]" && to == "Cel") return UnitConversion{5.0 / 9, -32 * 5.0 / 9};
+    if (from == "[degF]" && to == "K") return UnitConversion{5.0 / 9, kZeroCelsius - 32 * 5.0 / 9};
     return std::nullopt;
 }
 

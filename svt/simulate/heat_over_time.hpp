@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Temperatures of components over time, while the temperature outside changes: the conduction of heat.hpp with the heat that
-/// solids store.
+/// Temperatures of components over time, while the temperature outside changes: the conduction of heat.hpp with the
+/// heat that solids store.
 ///
-/// Steps in time: TR-BDF2 with gamma = 2 - sqrt(2) (Bank and others, "Transient simulation of silicon devices and circuits",
-/// 1985; Hosea and Shampine, "Analysis and implementation of TR-BDF2", 1996). It is of second order and L-stable, so steps may be
-/// longer than the time that heat needs to pass a voxel. Both stages have one matrix.
+/// Steps in time: TR-BDF2 with gamma = 2 - sqrt(2) (Bank and others, "Transient simulation of silicon devices and
+/// circuits", 1985; Hosea and Shampine, "Analysis and implementation of TR-BDF2", 1996). It is of second order and
+/// L-stable, so steps may be longer than the time that heat needs to pass a voxel. Both stages have one matrix.
 
 #include <svt/simulate/heat.hpp>
 
@@ -30,7 +30,8 @@ struct Weather {
 
 /// Parses CSV (record::CsvReader) with the columns `time` (seconds, or ISO 8601) and `temperature` (degrees Celsius).
 /// \param file  for messages
-/// \return the weather, or BadValue with the line; also if times do not ascend, or a temperature is below -273.15 or above 5000
+/// \return the weather, or BadValue with the line; also if times do not ascend, or a temperature is below -273.15 or
+///         above 5000
 [[nodiscard]] Result<Weather> parseWeather(std::string_view text, const std::string& file);
 
 struct TimeOptions {
@@ -63,15 +64,16 @@ struct HeatOverTime {
     std::int64_t steps = 0, iterations = 0;
 };
 
-/// Computes temperatures over time. Rooms keep their temperatures. The heat capacity of a component is that of its own volume
-/// (analyze::ownMeasures()), divided equally among its voxels. Windows and doors store no heat.
+/// Computes temperatures over time. Rooms keep their temperatures. The heat capacity of a component is that of its own
+/// volume (analyze::ownMeasures()), divided equally among its voxels. Windows and doors store no heat.
 ///
 /// \param findings  as simulateHeat()
-/// \return the result, or the errors of simulateHeat(); BadArgument for times out of range, for `every` that is no whole number of
-///         steps, or `hours` that is no whole number of `every`, or weather that ends too early; GridTooLarge for a field of more
-///         than 2^31 values
-/// Cost: two solutions for each step, each with a few iterations. Memory: that of simulateHeat(), 60 bytes more for each cell, and 4
-/// for each voxel of the grid and result.
+/// \return the result, or
+///         - the errors of simulateHeat()
+///         - BadArgument: times out of range or that are not whole multiples of each other; weather that ends too early
+///         - GridTooLarge: a field of more than 2^31 values
+/// Cost: two solutions for each step, each with a few iterations. Memory: that of simulateHeat(), 60 bytes more for
+/// each cell, and 4 for each voxel of the grid and result.
 [[nodiscard]] Result<HeatOverTime> simulateHeatOverTime(const volume::SemanticVolume& volume,
                                                         const HeatOptions& options, const TimeOptions& time,
                                                         Diagnostics& findings);

@@ -454,8 +454,8 @@ TEST(Formats, AreListedWithEndingsAndCommands) {
     for (const char* name : {"svt", "nrrd", "vti", "nifti", "tiff", "zarr", "ade"})
         EXPECT_EQ(byName.at(name)["readAs"], "volume") << name;
     EXPECT_EQ(byName.at("ifc")["endings"], json({".ifc", ".ifczip"}));
-    EXPECT_EQ(byName.at("svt")["writtenBy"],
-              json({"build", "field-add", "field-remove", "simulate-heat", "simulate-spread", "diff", "shell", "city-extract"}));
+    EXPECT_EQ(byName.at("svt")["writtenBy"], json({"build", "field-add", "field-remove", "simulate-heat",
+                                                   "simulate-spread", "diff", "shell", "city-extract"}));
     const std::string text = runSvtWell(folder.path(), {"--formats"});
     for (const auto& [name, row] : byName) EXPECT_NE(text.find(row["content"]), std::string::npos) << name;
     EXPECT_EQ(runSvt(folder.path(), {"--formats=xml"}).exitCode, 2);

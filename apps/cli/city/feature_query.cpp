@@ -347,7 +347,9 @@ private:
         } else if (!layer_ && (!table_.rows.empty() || !isBegun_)) {
             printTable();
         }
-        if (count_ == 0) note(fmt::format("the query '{}' selects nothing", query_.query));
+        if (count_ == 0)
+            note(
+                fmt::format("the query '{}' selects nothing{}", query_.query, query_.box.empty() ? "" : " in the box"));
         if (layer_)
             summarize(fmt::format("{}: {} features", query_.output.string(),
                                   query_.sort.empty() ? given_ : int(largest_.size())));

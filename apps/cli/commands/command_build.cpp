@@ -44,6 +44,22 @@ void printSummary(const pipeline::BuildOutput& built, std::uint64_t fileBytes, c
         summarize(fmt::format("spacing: {}; --spacing or --dimension gives another", choice->reason));
 }
 
+// Names objects without voxels: smaller than a voxel, or in the space of others.
+void noteLost(const volume::LabelTable& table) {
+    constexpr std::size_t kShown = 3;
+    std::vector<std::string> lost;
+    std::size_t count = 0, all = 0;
+    for (const volume::Label& label : table.labels) {
+        if (label.count == 0) continue;
+        ++all;
+        if (label.voxels > 0) continue;
+        if (++count <= kShown) lost.push_back(fmt::format("'{}'", label.name.empty() ? label.id : label.name));
+    }
+    if (count == 0) return;
+    note(fmt::format("{} of {} objects have no voxels: they are smaller than a voxel, or others have their space: {}{}",
+                     count, all, fmt::join(lost, ", "), count > kShown ? ", ..." : ""));
+}
+
 // Null if options define the grid.
 Json chosenSpacingJson(const std::optional<pipeline::SpacingChoice>& choice) {
     if (!choice) return nullptr;
@@ -176,6 +192,7 @@ int runBuild(const BuildArguments& arguments) {
         print(json);
     } else {
         printSummary(*built, *bytes, arguments);
+        noteLost(built->volume.labels);
     }
     const bool isFlawed = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error) != 0;
     if (arguments.strict && isFlawed) {

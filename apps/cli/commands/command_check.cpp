@@ -264,7 +264,17 @@ Result<void> report(const CheckArguments& arguments, const Checked& checked, con
 }
 
 Result<int> runCheck(const CheckArguments& arguments) {
-    if (arguments.inputs.size() == 1 && isCity(arguments.inputs[0])) return checkCity(arguments.inputs[0]);
+    if (std::ranges::any_of(arguments.inputs, isCity)) {
+        if (arguments.inputs.size() > 1)
+            return Error(Code::BadArgument, "a city cannot be checked together with other inputs; check it separately");
+        const validate::ValidateOptions usual;
+        if (arguments.json || arguments.strict || arguments.format != ReportFormat::Text || !arguments.report.empty() ||
+            arguments.validation.planarity != usual.planarity || arguments.validation.overlap != usual.overlap)
+            return Error(Code::BadArgument,
+                         "the check of a city tests its tiles and prints text; --json, --format, --report, --strict, "
+                         "--planarity and --overlap are for models");
+        return checkCity(arguments.inputs[0]);
+    }
     Diagnostics diagnostics;
     std::optional<TerminalProgress> progress(std::in_place);
     const auto stop = [&](const Error& error) {

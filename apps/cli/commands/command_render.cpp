@@ -145,8 +145,15 @@ Result<void> writeBuffers(const render::Frame& frame, const RenderArguments& arg
         SVT_TRY(gray, render::grayFromLabels(frame.label));
         SVT_DO(image::writePng(at(arguments.labelOutput), *gray));
     }
-    if (!arguments.depthOutput.empty())
+    if (!arguments.depthOutput.empty()) {
+        constexpr float kMostDepth = 65.534f;  // metres
+        const auto beyond = std::ranges::count_if(
+            frame.depth.pixels(), [](float depth) { return std::isfinite(depth) && depth > kMostDepth; });
+        if (beyond > 0)
+            note(fmt::format("{}: {} pixels lie deeper than {} m, the most that 16 bits hold; they have this value",
+                             at(arguments.depthOutput).string(), beyond, kMostDepth));
         return image::writePng(at(arguments.depthOutput), render::grayFromDepth(frame.depth, 0.001));
+    }
     return {};
 }
 
@@ -277,7 +284,9 @@ Result<void> checkForLines(const RenderArguments& arguments, const illustrate::S
                                                   {!scene.insets.empty(), "--inset (insets of a scene)"},
                                                   {scene.explode != 0, "--explode (explode of a scene)"},
                                                   {scene.sun.has_value(), "--sun (sun of a scene)"},
-                                                  {hasCells, "--cells (cells of a scene)"}};
+                                                  {hasCells, "--cells (cells of a scene)"},
+                                                  {!scene.colorBy.empty(), "--color-by (colorBy of a scene)"},
+                                                  {!scene.names.empty(), "--names (names of a scene)"}};
     std::vector<const char*> found;
     for (const auto& [isGiven, option] : needs)
         if (isGiven) found.push_back(option);

@@ -88,7 +88,9 @@ Result<int> writeSection(const SectionArguments& arguments, const drawing::Secti
         return Error(Code::BadSection,
                      fmt::format("the plane '{}' cuts no visible feature; move it, or see --show, --hide, "
                                  "--no-rooms and --min-area",
-                                 arguments.plane.empty() ? "1.1 m above the ground floor" : arguments.plane));
+                                 !arguments.plane.empty()       ? arguments.plane
+                                 : !arguments.elevation.empty() ? "of the elevation " + arguments.elevation
+                                                                : "1.1 m above the ground floor"));
     for (const auto& paths : {arguments.outputs, arguments.tables})
         for (const std::filesystem::path& path : paths) {
             if (endingOf(path) == ".pdf") {

@@ -7,6 +7,7 @@
 #include <svt/core/machine.hpp>
 #include <svt/field_readers/read_fields.hpp>
 #include <svt/fields/field.hpp>
+#include <svt/fields/field_sampler.hpp>
 #include <svt/fields/svt_fields.hpp>
 #include <svt/fields/units.hpp>
 #include <svt/volume/svt_file.hpp>
@@ -144,6 +145,8 @@ Result<int> runFieldAdd(const FieldAddArguments& arguments) {
     printAddFindings(diagnostics);
     if (!added) return added.error();
     SVT_DO(nameFields(arguments, *added));
+    // A medium that selects nothing would show only later.
+    for (const fields::Field& field : *added) SVT_DO(fields::mediumOf(field.head, *volume));
     Progress::tell(progress.get(), "write", 0);
     const std::filesystem::path& output = arguments.output.empty() ? arguments.volume : arguments.output;
     SVT_TRY(bytes, fields::writeFields(arguments.volume, output, *added));

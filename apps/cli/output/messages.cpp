@@ -92,7 +92,13 @@ namespace {
 std::string cityHint(const Error& error) {
     std::error_code failed;
     const std::filesystem::path folder = error.where().file;
-    if (error.code() != Code::CannotOpen || !std::filesystem::exists(folder / "plan" / "plan.json", failed)) return {};
+    if (error.code() != Code::CannotOpen) return {};
+    if (std::filesystem::exists(folder / "city.json", failed))
+        return fmt::format(
+            ". It is a city, which this command does not read: 'svt city extract {} -o part.svt' makes a "
+            "volume of a part",
+            folder.string());
+    if (!std::filesystem::exists(folder / "plan" / "plan.json", failed)) return {};
     return fmt::format(". It is a city that is planned, but not built: 'svt city run {}' builds it", folder.string());
 }
 

@@ -275,7 +275,22 @@ bool areAllVolumes(std::span<const GivenOption> given) {
     return isAny;
 }
 
+std::string cityOf(std::span<const GivenOption> given) {
+    for (const auto& [option, values] : given)
+        if (option->file == FileUse::ModelOrVolume)
+            for (const std::string& value : values)
+                if (isRegular(userPath(value) / "city.json")) return value;
+    return {};
+}
+
 Result<void> checkOptionsForModels(std::span<const GivenOption> given) {
+    if (const std::string city = cityOf(given); !city.empty())
+        for (const GivenOption& each : given)
+            if (each.option->isForModels)
+                return errorAt(city, Code::BadArgument,
+                               fmt::format("{} is for building a volume from a model, but the tiles of this city are "
+                                           "built already; leave it out, or give it to svt city plan",
+                                           longName(*each.option)));
     if (!areAllVolumes(given)) return {};
     const auto isVolume = [](const GivenOption& g) { return g.option->file == FileUse::ModelOrVolume; };
     for (const GivenOption& each : given)

@@ -38,6 +38,9 @@ namespace svt::cli {
 /// \return nothing, or CannotOpen (an input), BadArgument (an ending), WouldDestroy, CannotWrite, DiskFull
 [[nodiscard]] Result<void> checkFiles(std::span<const frontend::GivenOption> given);
 
+/// The folder of a city among the inputs that may be a model or a volume; empty: none.
+[[nodiscard]] std::string cityOf(std::span<const frontend::GivenOption> given);
+
 /// Whether all models and volumes that the options name are volumes (.svt). False without any.
 [[nodiscard]] bool areAllVolumes(std::span<const frontend::GivenOption> given);
 

@@ -177,8 +177,15 @@ std::string faultOfEmptyValues(std::span<const std::string> words) {
 
 int reportUsage(const CLI::App& app, const CLI::ParseError& error) {
     std::string message = error.what();
-    for (const std::string& word : app.remaining(true)) message += suggestionFor(app, word);
     const auto chosen = app.get_subcommands();
+    const std::vector<std::string> unknown = app.remaining(true);
+    if (chosen.empty() && !unknown.empty() && !unknown.front().starts_with('-'))
+        message = fmt::format("'{}' is neither a command nor a file", unknown.front());
+    // As CLI11 puts it: "--spacing: At Most 1 required but received 2".
+    constexpr std::string_view kTwice = "At Most 1 required";
+    if (const std::size_t at = message.find(kTwice); at != std::string::npos)
+        message.replace(at, std::string::npos, "give this option once");
+    for (const std::string& word : unknown) message += suggestionFor(app, word);
     printMessage(fmt::format("svt: {}\nsvt: see 'svt {}--help'\n", message,
                              chosen.empty() ? "" : chosen.front()->get_name() + " "));
     return kUsage;
@@ -220,7 +227,7 @@ Result<int> runCommand(std::vector<frontend::GivenOption> given, const CommandTe
     SVT_DO(transfer.begin(given));
     SVT_DO(checkFiles(given));
     SVT_DO(transfer.fetch(given));
-    if (areAllVolumes(given)) defaults.dropOptionsForModels(given);
+    if (areAllVolumes(given) || !cityOf(given).empty()) defaults.dropOptionsForModels(given);
     SVT_DO(checkOptionsForModels(given));
     if (isVerbose()) defaults.print();
     SVT_TRY(exitCode, text.run(given));

@@ -62,7 +62,7 @@ Error cannotWrite(const fs::path& path, int systemError) {
                          fmt::format("the folder {} does not exist; create it first",
                                      path.has_parent_path() ? path.parent_path().string() : "of the file"));
         case ENOTDIR: return error(Code::CannotWrite, "a part of the path is a file, not a folder");
-        case EISDIR: return error(Code::CannotWrite, "this is a folder; give the name of a file in it");
+        case EISDIR: return error(Code::CannotWrite, "this is a folder; remove it, or give another name");
         case EACCES:
         case EPERM:
             return error(Code::CannotWrite,

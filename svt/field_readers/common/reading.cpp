@@ -114,18 +114,24 @@ Result<void> setUnit(fields::Field& field, std::string_view fileUnit, const Read
     if (!wanted) return {};
     // A unit that the table lacks may be any spelling of the given one.
     if (!ofFile || fields::findUnit(*ofFile) == nullptr) {
-        assumptions.add("unit", withoutBlanks(fileUnit).empty()
-                                    ? fmt::format("given, {}; the file states none", *wanted)
-                                    : fmt::format("given, {}; the file states '{}'", *wanted, fileUnit));
+        const bool isStated = !withoutBlanks(fileUnit).empty();
+        assumptions.add("unit", isStated ? fmt::format("given, {}; the file states '{}'", *wanted, fileUnit)
+                                         : fmt::format("given, {}; the file states none", *wanted));
+        if (isStated && ofFile != wanted)
+            reading.note(
+                fmt::format("the file states the unit '{}' of '{}'; its values are taken as {} without a "
+                            "conversion, as --unit says",
+                            fileUnit, field.head.name, *wanted));
         return {};
     }
     const auto conversion = fields::unitConversion(*ofFile, *wanted);
     if (!conversion)
         return Error(
             Code::BadArgument,
-            fmt::format("'{}' is in {} and cannot become {}: only Cel and K are converted; leave out --unit, or "
-                        "choose a quantity with --quantity",
-                        field.head.name, *ofFile, *wanted),
+            fmt::format(
+                "'{}' is in {} and cannot become {}: only Cel, K and [degF] are converted; leave out --unit, or "
+                "choose a quantity with --quantity",
+                field.head.name, *ofFile, *wanted),
             where);
     if (*conversion == fields::UnitConversion{}) return {};
     for (float& value : field.values)

@@ -80,8 +80,11 @@ Result<fields::Field> fieldOfArray(LatticeArray array, const Reading& reading, A
     fields::Field field;
     fields::FieldHead& head = field.head;
     head.name = fieldName(array.name, fieldName(reading.path.stem().string(), "field"));
-    head.quantity = lowerAscii(array.name);
-    head.medium = reading.options.medium.empty() ? "all" : reading.options.medium;
+    head.quantity = array.quantity.empty() ? lowerAscii(array.name) : array.quantity;
+    head.medium = !reading.options.medium.empty() ? reading.options.medium
+                  : !array.medium.empty()         ? array.medium
+                                                  : "all";
+    head.epoch = std::move(array.epoch);
     head.by = array.by;
     head.components = array.components;
     head.times = std::move(array.times);

@@ -6,6 +6,7 @@
 #include <svt/field_readers/common/reading.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,13 +21,15 @@ struct LatticeArray {
     std::vector<float> values;    ///< x fastest, then y and z; the components of a place follow each other
     std::vector<double> times{0};
     std::string by;
-    std::string place;  ///< how the file states its frame; empty: not at all
+    std::string place;                 ///< how the file states its frame; empty: not at all
+    std::string quantity, medium;      ///< that the file states, as those of svt do; empty: not at all
+    std::optional<std::string> epoch;  ///< as FieldHead::epoch
 };
 
 /// The number of places of an array.
 [[nodiscard]] std::uint64_t placesOf(const NodePlaces& places) noexcept;
 
-/// FieldReadOptions::at counts as the origin of the file's coordinates, and replaces the origin that a file states. The medium is `all` unless another is asked for.
+/// FieldReadOptions::at counts as the origin of the file's coordinates, and replaces the origin that a file states. The medium is that of the file, else `all`, unless another is asked for.
 /// \return the field, or BadArgument where the file's axes are not those of the grid, or units do not fit
 [[nodiscard]] Result<fields::Field> fieldOfArray(LatticeArray array, const Reading& reading, Assumptions assumptions);
 

@@ -83,6 +83,8 @@ public:
         if (!reading_.options.quantity.empty()) array_.name = reading_.options.quantity;
         if (array_.name.empty()) array_.name = reading_.path.stem().string();
         array_.unit = std::string(lineOf(lines_, "sample units"));
+        array_.medium = std::string(lineOf(lines_, "svt_medium"));
+        if (const auto time = parseNumber(lineOf(lines_, "svt_time"))) array_.times = {*time};
         return fieldOfArray(std::move(array_), reading_, assumptions_);
     }
 

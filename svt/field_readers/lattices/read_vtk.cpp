@@ -50,6 +50,12 @@ LatticeArray latticeArray(const VtkFile& file, const VtkArray& array) {
     lattice.frame = file.frame();
     lattice.components = array.components;
     lattice.by = "VTK";
+    const VtkFacts& facts = file.facts();
+    lattice.unit = facts.unit;
+    lattice.quantity = facts.quantity;
+    lattice.medium = facts.medium;
+    lattice.epoch = facts.epoch;
+    if (facts.time) lattice.times = {*facts.time};
     return lattice;
 }
 

@@ -30,6 +30,7 @@ struct VtkFile::State {
     NodePlaces nodes, cells;
     Frame frame;
     std::vector<VtkArray> arrays;
+    VtkFacts facts;
 };
 
 namespace {
@@ -200,6 +201,7 @@ VtkFile::~VtkFile() = default;
 const std::vector<VtkArray>& VtkFile::arrays() const noexcept { return state_->arrays; }
 const NodePlaces& VtkFile::places(bool isCell) const noexcept { return isCell ? state_->cells : state_->nodes; }
 const Frame& VtkFile::frame() const noexcept { return state_->frame; }
+const VtkFacts& VtkFile::facts() const noexcept { return state_->facts; }
 
 namespace {
 
@@ -218,6 +220,33 @@ VtkArray describedArray(pugi::xml_node node, bool isCell) {
 }  // namespace
 
 namespace {
+
+// The text of an array of strings: the numbers of its bytes, up to a 0.
+std::string arrayText(std::string_view numbers) {
+    std::string text;
+    while (true) {
+        const auto number = takeNumber(numbers);
+        if (!number || !(*number >= 1 && *number <= 255)) return text;
+        text += static_cast<char>(static_cast<unsigned char>(*number));
+        numbers.remove_prefix(std::min(numbers.find_first_not_of(" \t\r\n"), numbers.size()));
+    }
+}
+
+VtkFacts readFacts(pugi::xml_node data) {
+    VtkFacts facts;
+    for (const pugi::xml_node node : data.children()) {
+        const std::string_view name = node.attribute("Name").value();
+        if (std::string_view(node.attribute("format").as_string("ascii")) != "ascii") continue;
+        std::string_view text = withoutBlanks(node.child_value());
+        if (name == "TimeValue") facts.time = takeNumber(text);
+        if (std::string_view(node.attribute("type").value()) != "String") continue;
+        if (name == "unit") facts.unit = arrayText(text);
+        if (name == "quantity") facts.quantity = arrayText(text);
+        if (name == "medium") facts.medium = arrayText(text);
+        if (name == "epoch") facts.epoch = arrayText(text);
+    }
+    return facts;
+}
 
 // Unpacks blocks of zlib; `numbers` has their count, their size, the size of the last, and the packed sizes.
 bool inflateBlocks(std::string_view numbers, std::string_view packed, std::size_t width, std::size_t expected,
@@ -370,6 +399,7 @@ Result<VtkFile> VtkFile::open(const std::filesystem::path& path, std::uint64_t m
         file.state_->nodes = std::exchange(file.state_->cells, {});
     }
     setCells(file.state_->nodes, file.state_->cells);
+    file.state_->facts = readFacts(node.child("FieldData"));
     for (const bool isCell : {false, true})
         for (const pugi::xml_node child : piece.child(isCell ? "CellData" : "PointData").children("DataArray"))
             file.state_->arrays.push_back(describedArray(child, isCell));

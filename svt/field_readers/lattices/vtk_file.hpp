@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,13 @@ struct VtkArray {
     std::string format;        ///< ascii, binary, appended
     std::uint64_t offset = 0;  ///< of appended samples
     std::string_view text;     ///< of samples in the XML
+};
+
+/// Facts about all arrays of a VTK file, from its field data.
+struct VtkFacts {
+    std::string unit, quantity, medium;  ///< of files of svt; empty: not stated
+    std::optional<std::string> epoch;
+    std::optional<double> time;  ///< TimeValue, seconds
 };
 
 /// A VTK file, opened: its lattice and the list of its arrays.
@@ -42,6 +50,7 @@ public:
     /// The places of the values of points or cells, along the axes of the file.
     [[nodiscard]] const NodePlaces& places(bool isCell) const noexcept;
     [[nodiscard]] const Frame& frame() const noexcept;
+    [[nodiscard]] const VtkFacts& facts() const noexcept;
     /// Appends the values of an array.
     /// \return nothing, or BadField where they are damaged or not as many as the lattice has places
     [[nodiscard]] Result<void> read(const VtkArray& array, std::vector<float>& to) const;

@@ -140,6 +140,7 @@ Result<void> addPlaceRow(const std::vector<std::string>& cells, const PlaceColum
 Result<Places> readPlaces(const Reading& reading) {
     const std::filesystem::path& path = reading.options.places;
     SVT_TRY(bytes, FileBytes::read(path, kMaxPlacesTable));
+    SVT_DO(record::checkTableText(bytes->text(), path.string()));
     record::CsvReader reader(bytes->text());
     std::vector<std::string> cells;
     const bool hasHeader = reader.next(cells);

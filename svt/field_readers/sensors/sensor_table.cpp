@@ -180,6 +180,7 @@ Result<std::vector<fields::Field>> readSensorTable(Reading& reading) {
             "--places",
             {reading.path.string(), 0, 0, {}});
     SVT_TRY(bytes, FileBytes::read(reading.path, reading.options.maxBytes));
+    SVT_DO(record::checkTableText(bytes->text(), reading.path.string()));
     SVT_TRY(places, readPlaces(reading));
     SensorTable table(reading, bytes->text(), *places);
     SVT_TRY(field, table.read());

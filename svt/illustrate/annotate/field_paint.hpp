@@ -26,7 +26,7 @@
 
 namespace svt::illustrate {
 
-/// A field of a volume, prepared for pictures. Of vectors, it shows the lengths.
+/// A field of a volume, prepared for pictures. It shows the lengths of vectors.
 class FieldView {
 public:
     /// \param field, volume  must outlive the view

@@ -131,6 +131,11 @@ private:
         temperatureOf_.assign(labels_.size(), nullptr);
         for (const RoomTemperature& rule : options_.inside) {
             SVT_TRY(selected, analyze::selectWithParts(rows, rule.query));
+            const bool hasRoom = std::any_of(selected->begin(), selected->end(),
+                                             [&](std::uint32_t l) { return model::isSpace(labels_[l].className); });
+            if (!hasRoom)
+                return Error(Code::NothingSelected,
+                             fmt::format("the query '{}' of a room's temperature selects no room", rule.query));
             for (const std::uint32_t l : *selected) temperatureOf_[l] = &rule;
         }
         return {};

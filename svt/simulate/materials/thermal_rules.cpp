@@ -66,6 +66,7 @@ private:
 }  // namespace
 
 Result<std::vector<ThermalRule>> parseThermalRules(std::string_view text, const std::string& file) {
+    SVT_DO(record::checkTableText(text, file));
     std::vector<ThermalRule> rules;
     RuleParser parser(file);
     record::CsvReader reader(text);

@@ -33,9 +33,9 @@ Result<void> checkTimes(const volume::SemanticVolume& volume, const TimeOptions&
         return wrong(fmt::format("a step of {} s is not a number from {} to the whole time, {} s", time.step,
                                  kLeastStep, time.hours * kHour));
     if (!(time.every >= time.step && isWhole(time.every / time.step)))
-        return wrong(fmt::format("results every {} s are no whole number of steps of {} s", time.every, time.step));
+        return wrong(fmt::format("results every {} s are not a whole number of steps of {} s", time.every, time.step));
     if (!isWhole(time.hours * kHour / time.every))
-        return wrong(fmt::format("{} hours are no whole number of times {} s, the time between results", time.hours,
+        return wrong(fmt::format("{} hours are not a whole number of times {} s, the time between results", time.hours,
                                  time.every));
     if (!(time.hours * kHour / time.step <= kMostSteps))
         return wrong(fmt::format("{} hours have more than {} steps of {} s", time.hours, kMostSteps, time.step));

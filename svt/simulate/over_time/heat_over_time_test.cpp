@@ -124,7 +124,8 @@ TEST(HeatOverTime, StaysSteadyAndReachesTheSteadyState) {
     EXPECT_NEAR(reaches.stored / reaches.received, 1, 1e-6);
 }
 
-// Outside air that goes up and down within a day: the damping and the delay of the heat into the room are those of EN ISO 13786.
+// Outside air that goes up and down within a day: the damping and the delay of the heat into the room are those of EN
+// ISO 13786.
 TEST(HeatOverTime, ADayOfWavesHasThePeriodicTransmittanceOfIso13786) {
     const SemanticVolume volume = wall();
     const HeatOptions options = optionsOf(volume, 20);

@@ -1,10 +1,14 @@
 #pragma once
 /// \file
-/// Steps of TR-BDF2 for C dT/dt = b(t) - K T, with the heat capacities C of cells and the equations K T = b of heat conduction.
+/// Steps of TR-BDF2 for C dT/dt = b(t) - K T, with the heat capacities C of cells and the equations K T = b of heat
+/// conduction.
 ///
-///     (m + K) (T* - T)  = 2 F(T, t) + b(t + gamma h) - b(t)               m = C / (alpha h), alpha = gamma / 2
-///     (m + K) (T' - T)  = w / alpha (F(T, t) + F(T*, t + gamma h))        F = b - K T, w = sqrt(2) / 4
-///                         + F(T, t) + b(t + h) - b(t)
+/// The middle T* and the end T' of a step h:
+///
+///     (m + K) (T* - T)  = 2 F(T, t) + b(t + gamma h) - b(t)
+///     (m + K) (T' - T)  = w / alpha (F(T, t) + F(T*, t + gamma h)) + F(T, t) + b(t + h) - b(t)
+///
+/// with m = C / (alpha h), alpha = gamma / 2, w = sqrt(2) / 4 and F = b - K T.
 
 #include <svt/simulate/conduction/heat_equations.hpp>
 #include <svt/simulate/solver/multigrid.hpp>

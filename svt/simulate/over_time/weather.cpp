@@ -79,6 +79,7 @@ private:
 }  // namespace
 
 Result<Weather> parseWeather(std::string_view text, const std::string& file) {
+    SVT_DO(record::checkTableText(text, file));
     return WeatherParser(text, file).parse();
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The length of the shortest way through the air of rooms: fast marching of second order (Sethian, "Fast marching methods",
-/// SIAM Review 41, 1999).
+/// The length of the shortest way through the air of rooms: fast marching of second order (Sethian, "Fast marching
+/// methods", SIAM Review 41, 1999).
 
 #include <svt/core/vec.hpp>
 #include <svt/simulate/spread/room_air.hpp>

@@ -45,7 +45,8 @@ struct RoomAir {
 };
 
 /// \param open  queries of doors, rooms and other components that become common air
-/// \return the air; BadQuery, NothingSelected of a query; BadArgument without rooms; GridTooLarge beyond 2^32 - 1 voxels
+/// \return the air; BadQuery, NothingSelected of a query; BadArgument without rooms; GridTooLarge beyond 2^32 - 1
+///         voxels
 /// Cost: O(voxels). Memory: 4 bytes for each voxel, 16 for each run of voxels while it is made.
 [[nodiscard]] Result<RoomAir> findRoomAir(const volume::SemanticVolume& volume, std::span<const std::string> open);
 

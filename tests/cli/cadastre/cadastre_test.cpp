@@ -58,6 +58,27 @@ TEST_F(Cadastre, TheGeoPackageHasATablePerClassWithValidKeysAndGeometries) {
     EXPECT_TRUE(readText(folder / "units.gpkg") == readText(folder / "again.gpkg"));
 }
 
+TEST_F(Cadastre, ABuildingThatIsAUnitHasItsBodyAndItsOwner) {
+    writeText(folder / "all.csv", "feature,owner\ntower,Otto\ntower_S00_F1,Anna\n");
+    runSvtWell(folder.path(), {"cadastre", "tower.svt", "--owners", "all.csv", "-o", "all.gml", "-o", "all.city.json",
+                               "-o", "all.ifc"});
+    const json objects = json::parse(readText(folder / "all.city.json"))["CityObjects"];
+    EXPECT_FALSE(objects["tower"]["geometry"].empty());
+    EXPECT_EQ(objects["tower"]["attributes"]["owner"], "Otto");
+    EXPECT_EQ(objects["tower_S00_F1"]["attributes"]["owner"], "Anna") << "the owner of the model is replaced";
+    EXPECT_FALSE(objects["tower_S00_F2"]["attributes"].contains("owner"));
+    const std::string gml = readText(folder / "all.gml");
+    const std::size_t building = gml.find("<bldg:Building "), unit = gml.find("<bldg:BuildingUnit ");
+    EXPECT_LT(gml.find("<core:lod3Solid>"), unit) << "the solid of the building comes first";
+    EXPECT_GT(gml.find("<core:lod3Solid>"), building);
+    for (const char* file : {"all.gml", "all.city.json", "all.ifc"}) {
+        runSvtWell(folder.path(), {"build", file, "-o", "again.svt", "--spacing", "0.5", "-q"});
+        const json rows = runSvtForJson(folder.path(), {"query", "again.svt", "class=Building", "--json"});
+        ASSERT_EQ(rows.size(), 1u) << file;
+        EXPECT_GT(rows[0]["ownVoxels"].get<int>() + rows[0]["totalVoxels"].get<int>(), 0) << file;
+    }
+}
+
 TEST_F(Cadastre, UnitsAndTheirRelationsAreThoseOfTheModel) {
     const json report = runSvtForJson(folder.path(), {"cadastre", "tower.svt", "--json"});
     EXPECT_EQ(report["parties"].size(), 5u) << "the attribute owner of four flats and the common area";

@@ -41,6 +41,19 @@ protected:
     TemporaryFolder folder;
 };
 
+TEST_F(CityQuantities, OptionsOfModelsAreRefused) {
+    const auto expectError = [&](std::vector<std::string> arguments, std::string_view text) {
+        const CommandResult result = runSvt(folder.path(), arguments);
+        EXPECT_EQ(result.exitCode, kUsage) << result.toString();
+        EXPECT_NE(result.err.find(text), std::string::npos) << result.toString();
+    };
+    for (const char* command : {"quantities", "query", "info", "render"})
+        expectError({command, "town", "--spacing", "2"}, "the tiles of this city are built already");
+    for (const char* option : {"--json", "--strict"}) expectError({"check", "town", option}, "the check of a city");
+    expectError({"check", "town", "--report", "c.html"}, "the check of a city");
+    EXPECT_EQ(runSvt(folder.path(), {"check", "town"}).exitCode, 0);
+}
+
 TEST_F(CityQuantities, HasARowPerBuilding) {
     const json report = measure({});
     ASSERT_EQ(report["rows"].size(), 32u);

@@ -119,8 +119,11 @@ TEST_F(FieldCommand, ExportsALatticeThatComesBackAtTheSamePlaces) {
     const double before = runSvtForJson(folder.path(), probe)[0].at("value");
     for (const char* name : {"t.vti", "t.vtr", "t.nrrd"}) {
         runSvtWell(folder.path(), {"field-export", "heat.svt", "temperature", "-o", name, "-q"});
-        runSvtWell(folder.path(), {"field-add", "plain.svt", name, "--unit", "Cel", "--name", "temperature",
-                                   "--replace", "-o", "heat.svt", "-q"});
+        runSvtWell(folder.path(),
+                   {"field-add", "plain.svt", name, "--name", "temperature", "--replace", "-o", "heat.svt", "-q"});
+        const json field = runSvtForJson(folder.path(), {"field-list", "heat.svt", "--json"})["fields"][0];
+        EXPECT_EQ(field["unit"], "Cel") << name;
+        EXPECT_EQ(field["medium"], "solid") << name;
         EXPECT_NEAR(runSvtForJson(folder.path(), probe)[0].at("value").get<double>(), before, 1e-3) << name;
     }
 }
