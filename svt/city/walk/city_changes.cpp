@@ -145,6 +145,16 @@ private:
         }
     }
 
+    // Adds the ids of the features of a tile that have no parent.
+    static Result<void> addRootIds(const City& city, const IndexEntry& entry, std::vector<std::string>& ids) {
+        SVT_TRY(bytes, city.readBytes(entry));
+        const std::span<const std::byte> content = std::as_bytes(std::span(*bytes));
+        SVT_TRY(tile, volume::openSvt(content, entry.tile.toString()));
+        for (const volume::Label& label : tile->labels.labels)
+            if (label.parent == volume::kNoLabel && !label.id.empty()) ids.push_back(label.id);
+        return {};
+    }
+
     // Tiles of one building. Ids are unique in a city.
     Result<void> joinMoved(Places& places) {
         std::vector<std::array<std::vector<std::string>, 2>> ids(changed_.size());
@@ -152,13 +162,7 @@ private:
             const TilePair& pair = changed_[n].second;
             for (const bool isNew : {false, true}) {
                 const IndexEntry* entry = isNew ? pair.is : pair.was;
-                if (entry == nullptr) continue;
-                SVT_TRY(bytes, (isNew ? is_ : was_).readBytes(*entry));
-                SVT_TRY(tile, volume::openSvt(std::as_bytes(std::span(bytes->data(), bytes->size())),
-                                              entry->tile.toString()));
-                for (const volume::Label& label : tile->labels.labels)
-                    if (label.parent == volume::kNoLabel && !label.id.empty())
-                        ids[n][isNew ? 1 : 0].push_back(label.id);
+                if (entry != nullptr) SVT_DO(addRootIds(isNew ? is_ : was_, *entry, ids[n][isNew ? 1 : 0]));
             }
             return {};
         }));

@@ -593,7 +593,9 @@ private:
     Result<model::BuildingModel> placeModel() {
         if (options_.crs != 0 || !map_.crs.empty()) {
             const georeference::GivenCrs given{map_.crs, "", true, place(), {}};
-            SVT_DO(georeference::georeference(model_, given, options_, diagnostics_));
+            ReadOptions options = options_;
+            options.axisOrder = 0;  // a conversion states which axis is east
+            SVT_DO(georeference::georeference(model_, given, options, diagnostics_));
         } else if (!options_.keepFarFeatures) {
             georeference::leaveOutFarFeatures(model_, {1, 1, 1}, place(), diagnostics_);
         }
@@ -636,10 +638,8 @@ Result<model::BuildingModel> readIfc(std::span<const std::byte> bytes, string_vi
         return Error(Code::InputTooBig,
                      fmt::format("the file has {} bytes, the limit is {}", bytes.size(), options.maxBytes),
                      {std::string(name), 0, 0, {}});
-    if (options.unit != 0 || options.axisOrder != 0)
-        return Error(Code::BadArgument,
-                     "--unit and --axis-order are for GML and CityJSON; an IFC file states its unit and the directions "
-                     "of its axes",
+    if (options.unit != 0)
+        return Error(Code::BadArgument, "--unit is for GML and CityJSON; an IFC file states its unit",
                      {std::string(name), 0, 0, {}});
     string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
