@@ -461,6 +461,23 @@ TEST(Formats, AreListedWithEndingsAndCommands) {
     EXPECT_EQ(runSvt(folder.path(), {"--formats=xml"}).exitCode, 2);
 }
 
+TEST_F(Convert, OptionsOfOtherFormatsAreRefused) {
+    for (const auto& [option, output] :
+         std::vector<std::pair<std::vector<std::string>, std::string>>{{{"--meshopt"}, "o.nrrd"},
+                                                                       {{"--level-sets"}, "o.glb"},
+                                                                       {{"--zarr", "3"}, "o.vti"},
+                                                                       {{"--max-boxes", "7"}, "o.geojson"},
+                                                                       {{"--texture", "image"}, "o.csv"}}) {
+        std::vector<std::string> arguments{"convert", "boxes.svt", output};
+        arguments.insert(arguments.end(), option.begin(), option.end());
+        const CommandResult result = runSvt(folder.path(), arguments);
+        EXPECT_EQ(result.exitCode, kUsage) << result.toString();
+        EXPECT_NE(result.err.find("and the output has another format"), std::string::npos) << result.toString();
+        EXPECT_NE(result.err.find(option.front()), std::string::npos) << result.toString();
+        EXPECT_FALSE(std::filesystem::exists(folder / output));
+    }
+}
+
 TEST_F(Convert, EveryFormatIsWrittenAndTheSameForAnyThreads) {
     // Boxes have no rooms, of which IndoorGML and cases of OpenFOAM are made.
     prepareHouse(folder.path(), "0.4");
@@ -468,9 +485,11 @@ TEST_F(Convert, EveryFormatIsWrittenAndTheSameForAnyThreads) {
         const bool isOfRooms = format.name == "indoorgml" || format.name == "foam";
         const std::string input = isOfRooms ? "house.svt" : "boxes.svt";
         const std::string ending(format.endings.substr(0, format.endings.find('|')));
-        const std::string air = format.name == "foam" ? "name=Kitchen" : "all";
-        runSvtWell(folder.path(), {"convert", input, "one" + ending, "--threads", "1", "--air", air});
-        runSvtWell(folder.path(), {"convert", input, "two" + ending, "--threads", "3", "--air", air});
+        for (const auto& [name, threads] : {std::pair("one", "1"), std::pair("two", "3")}) {
+            std::vector<std::string> arguments{"convert", input, name + ending, "--threads", threads};
+            if (format.name == "foam") arguments.insert(arguments.end(), {"--air", "name=Kitchen"});
+            runSvtWell(folder.path(), arguments);
+        }
         if (fs::is_directory(folder / ("one" + ending))) {
             for (const auto& file : fs::recursive_directory_iterator(folder / ("one" + ending))) {
                 if (!file.is_regular_file()) continue;

@@ -188,7 +188,12 @@ Json val3dityJson(const Checked& checked, const std::string& inputFile) {
 
 void addFindings(Diagnostics& diagnostics, const Checked& checked) {
     std::set<std::pair<Code, std::string>> known;
-    for (const Diagnostic& item : diagnostics.items()) known.emplace(item.code, item.where.id);
+    // The note of the meshes that common space counts once does not replace the finding that solids of a composite overlap.
+    const auto isOnlyNoted = [](const Diagnostic& item) {
+        return item.code == Code::SolidsIntersect && item.severity == Severity::Note;
+    };
+    for (const Diagnostic& item : diagnostics.items())
+        if (!isOnlyNoted(item)) known.emplace(item.code, item.where.id);
     for (const Finding& finding : checked.report.findings) {
         const model::Feature& feature = checked.model.features[finding.feature];
         std::string id = feature.id;

@@ -11,11 +11,13 @@
 #include <svt/city/city_tiles3d.hpp>
 #include <svt/core/text.hpp>
 #include <svt/frontend/volume_part.hpp>
+#include <svt/record/record.hpp>
 #include <svt/writers/globe_heights.hpp>
 #include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,6 +45,33 @@ Result<int> convertToTable(const ConvertArguments& arguments) {
     query.roofs = arguments.roofs;
     query.build = arguments.build;
     return runFeatureQuery(query);
+}
+
+// Refuses options of other formats than that of the output, because they would have no effect.
+// \param format  of writers::volumeFormats(); empty: a table of features
+Result<void> checkFormatOptions(const writers::VolumeWriteOptions& given, std::string_view format) {
+    const writers::VolumeWriteOptions usual;
+    const auto differ = [](const auto& a, const auto& b) { return record::recordText(a) != record::recordText(b); };
+    struct Owned {
+        bool isGiven;
+        std::string_view options, formats;
+    };
+    const Owned all[] = {
+        {given.texture != usual.texture, "--texture", "x3d|ade"},
+        {differ(given.cityGml, usual.cityGml), "--model and --citygml", "ade"},
+        {differ(given.zarr, usual.zarr), "--zarr and its layout", "zarr"},
+        {differ(given.precomputed, usual.precomputed), "--meshes and further options of neuroglancer", "precomputed"},
+        {differ(given.tileset, usual.tileset), "--place, --lift, --voxels, --meshopt and --per-building", "tileset"},
+        {differ(given.vdb, usual.vdb), "--level-sets", "vdb"},
+        {differ(given.boxes, usual.boxes), "--merge, --max-boxes, --holes and --vents", "fds|boxes|boxesjson"},
+        {differ(given.foam, usual.foam), "--air and --surface-temperature", "foam"}};
+    for (const Owned& owned : all) {
+        const std::vector<std::string_view> formats = splitChoices(owned.formats);
+        if (!owned.isGiven || std::ranges::find(formats, format) != formats.end()) continue;
+        return Error(Code::BadArgument, fmt::format("{}: only for the formats {}, and the output has another format",
+                                                    owned.options, fmt::join(formats, ", ")));
+    }
+    return {};
 }
 
 // Without --lift and --place: raises a tileset by the geoid, and says so or that the grid is missing.
@@ -94,6 +123,8 @@ Result<int> convertCity(const ConvertArguments& arguments) {
 }
 
 Result<int> runConvert(const ConvertArguments& arguments) {
+    const writers::VolumeFormat* written = writers::volumeFormatOf(arguments.output);
+    SVT_DO(checkFormatOptions(arguments.write, written == nullptr ? std::string_view() : written->name));
     const std::string ending = endingOf(arguments.output);
     if (ending == ".geojson" || ending == ".gpkg") return convertToTable(arguments);
     if (isCity(arguments.input)) return convertCity(arguments);

@@ -47,8 +47,14 @@ TEST_F(CityQuantities, OptionsOfModelsAreRefused) {
         EXPECT_EQ(result.exitCode, kUsage) << result.toString();
         EXPECT_NE(result.err.find(text), std::string::npos) << result.toString();
     };
-    for (const char* command : {"quantities", "query", "info", "render"})
-        expectError({command, "town", "--spacing", "2"}, "the tiles of this city are built already");
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"quantities", "town"},
+                                                    {"query", "town", "class=Building"},
+                                                    {"info", "town"},
+                                                    {"render", "town", "-o", "p.png"}}) {
+        std::vector<std::string> arguments = command;
+        arguments.insert(arguments.end(), {"--spacing", "2"});
+        expectError(arguments, "the tiles of this city are built already");
+    }
     for (const char* option : {"--json", "--strict"}) expectError({"check", "town", option}, "the check of a city");
     expectError({"check", "town", "--report", "c.html"}, "the check of a city");
     EXPECT_EQ(runSvt(folder.path(), {"check", "town"}).exitCode, 0);
