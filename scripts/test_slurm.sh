@@ -112,7 +112,7 @@ cp -r files more
 cat >more/zz.gml <<'END'
 <?xml version="1.0"?>
 <CityModel xmlns="http://www.opengis.net/citygml/2.0" xmlns:bldg="http://www.opengis.net/citygml/building/2.0" xmlns:gml="http://www.opengis.net/gml">
-<gml:boundedBy><gml:Envelope srsName="EPSG:25833" srsDimension="3"><gml:lowerCorner>384000 5812000 30</gml:lowerCorner><gml:upperCorner>390000 5812100 90</gml:upperCorner></gml:Envelope></gml:boundedBy>
+<gml:boundedBy><gml:Envelope srsName="EPSG:25833" srsDimension="3" uomLabels="m m m"><gml:lowerCorner>384000 5812000 30</gml:lowerCorner><gml:upperCorner>390000 5812100 90</gml:upperCorner></gml:Envelope></gml:boundedBy>
 <cityObjectMember><bldg:Building gml:id="slow"><bldg:lod1Solid><gml:Solid><gml:exterior><gml:CompositeSurface>
 <gml:surfaceMember><gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>370000 5800000 0 395000 5803000 0 385000 5825000 0 370000 5800000 0</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember>
 <gml:surfaceMember><gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>370000 5800000 0 384000 5812000 20000 395000 5803000 0 370000 5800000 0</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember>
