@@ -16,6 +16,17 @@ std::size_t placeCount(const FieldHead& head, std::size_t labelCount) noexcept {
     return 0;
 }
 
+std::optional<std::pair<float, float>> rangeOf(const Field& field) noexcept {
+    std::optional<std::pair<float, float>> range;
+    for (const float value : field.values) {
+        if (std::isnan(value)) continue;
+        if (!range) range.emplace(value, value);
+        range->first = std::min(range->first, value);
+        range->second = std::max(range->second, value);
+    }
+    return range;
+}
+
 Field lengthsOf(const Field& vectors) {
     Field lengths;
     lengths.head = vectors.head;

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace svt::fields {
@@ -83,5 +84,8 @@ struct Field {
 
 /// The lengths of the vectors of a field, as a field of one component; NaN where a component is missing.
 [[nodiscard]] Field lengthsOf(const Field& vectors);
+
+/// The least and the greatest of all values, in the unit of the field; nothing if all values are missing.
+[[nodiscard]] std::optional<std::pair<float, float>> rangeOf(const Field& field) noexcept;
 
 }  // namespace svt::fields

@@ -39,8 +39,8 @@ struct TimeOptions {
     double step = 900;    ///< seconds
     double every = 3600;  ///< seconds between results; a whole number of steps
     Weather weather;      ///< without rows: HeatOptions::outside
-    std::optional<double>
-        start;  ///< degrees Celsius of all components at first; unset: the steady state of the first weather
+    /// Degrees Celsius of all components at first; unset: the steady state of the first weather.
+    std::optional<double> start;
 };
 
 /// Results at one time.

@@ -76,17 +76,6 @@ void printAddFindings(const Diagnostics& diagnostics) {
     printDiagnostics(findings, true);
 }
 
-std::optional<std::pair<float, float>> rangeOf(const fields::Field& field) {
-    std::optional<std::pair<float, float>> range;
-    for (const float value : field.values) {
-        if (std::isnan(value)) continue;
-        if (!range) range = {value, value};
-        range->first = std::min(range->first, value);
-        range->second = std::max(range->second, value);
-    }
-    return range;
-}
-
 std::string addedPlacesText(const fields::FieldHead& head) {
     const Vec3i size = head.lattice.size;
     return head.kind == fields::FieldKind::Grid ? fmt::format("{} x {} x {} nodes", size.x, size.y, size.z)
@@ -97,7 +86,7 @@ std::string addedPlacesText(const fields::FieldHead& head) {
 std::string fieldText(const fields::Field& field) {
     const fields::FieldHead& head = field.head;
     const std::string unit = fields::unitText(head.unit);
-    const auto range = rangeOf(field);
+    const auto range = fields::rangeOf(field);
     std::string text = fmt::format("{}: {}, ", head.name, addedPlacesText(head));
     text += head.times.size() == 1 ? fmt::format("1 time, {:.6g} s", head.times[0])
                                    : fmt::format("{} times from {:.6g} to {:.6g} s", head.times.size(),
@@ -111,7 +100,7 @@ std::string fieldText(const fields::Field& field) {
 
 Json fieldJson(const fields::Field& field) {
     const fields::FieldHead& head = field.head;
-    const auto range = rangeOf(field);
+    const auto range = fields::rangeOf(field);
     Json json;
     json["name"] = head.name;
     json["kind"] = nameOf(head.kind);

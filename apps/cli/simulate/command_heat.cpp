@@ -22,6 +22,8 @@
 namespace svt::cli {
 namespace {
 
+constexpr double kMinute = 60, kHour = 3600;  // seconds
+
 struct HeatArguments {
     std::filesystem::path input, output, materials;
     double outside = -5;
@@ -29,7 +31,8 @@ struct HeatArguments {
     double rsi = 0.13, rsiUp = 0.10, rsiDown = 0.17, rse = 0.04;
     std::string name = "temperature";
     bool isLeaky = false, json = false, csv = false;
-    std::optional<double> hours, step, every, start;
+    std::optional<double> hours, start;
+    double step = simulate::TimeOptions().step / kMinute, every = simulate::TimeOptions().every / kHour;
     std::filesystem::path weather;
     pipeline::BuildOptions build;
 };
@@ -57,15 +60,17 @@ Result<simulate::HeatOptions> optionsOf(const HeatArguments& arguments) {
 // The options of time; none without --hours.
 Result<std::optional<simulate::TimeOptions>> timesOf(const HeatArguments& arguments) {
     if (!arguments.hours) {
-        if (arguments.step || arguments.every || arguments.start || !arguments.weather.empty())
+        const HeatArguments usual;
+        if (arguments.step != usual.step || arguments.every != usual.every || arguments.start ||
+            !arguments.weather.empty())
             return Error(Code::BadArgument,
                          "--step, --every, --start and --weather are for temperatures over time; give --hours as well");
         return std::optional<simulate::TimeOptions>();
     }
     simulate::TimeOptions time;
     time.hours = *arguments.hours;
-    time.step = 60 * arguments.step.value_or(15);
-    time.every = 3600 * arguments.every.value_or(1);
+    time.step = kMinute * arguments.step;
+    time.every = kHour * arguments.every;
     time.start = arguments.start;
     if (!arguments.weather.empty()) {
         SVT_TRY(bytes, FileBytes::read(arguments.weather));
@@ -87,6 +92,14 @@ Result<void> writeField(const HeatArguments& arguments, const volume::SemanticVo
     return {};
 }
 
+template <class HeatOutput>
+void printHeat(const HeatArguments& arguments, const volume::SemanticVolume& volume, const HeatOutput& result) {
+    if (arguments.json)
+        print(heatJson(volume, result));
+    else if (arguments.csv || arguments.output.empty())
+        print(heatTable(volume, result), arguments.csv ? TableFormat::Csv : TableFormat::Text);
+}
+
 Result<int> runSteady(const HeatArguments& arguments, const volume::SemanticVolume& volume,
                       const simulate::HeatOptions& options, std::optional<TerminalProgress>& progress) {
     Diagnostics findings;
@@ -96,10 +109,7 @@ Result<int> runSteady(const HeatArguments& arguments, const volume::SemanticVolu
     if (!result) return result.error();
     if (!arguments.output.empty()) SVT_DO(writeField(arguments, volume, result->temperature));
     for (const std::string& text : heatNotes(volume, *result)) note(text);
-    if (arguments.json)
-        print(heatJson(volume, *result));
-    else if (arguments.csv || arguments.output.empty())
-        print(heatTable(volume, *result), arguments.csv ? TableFormat::Csv : TableFormat::Text);
+    printHeat(arguments, volume, *result);
     if (!arguments.output.empty())
         summarize(fmt::format("{}: field '{}', {} rooms, {:.0f} W to outside air", arguments.output.string(),
                               arguments.name, result->rooms.size(), -result->outside.watts));
@@ -116,10 +126,7 @@ Result<int> runOverTime(const HeatArguments& arguments, const volume::SemanticVo
     if (!result) return result.error();
     if (!arguments.output.empty()) SVT_DO(writeField(arguments, volume, result->temperature));
     for (const std::string& text : heatNotes(*result)) note(text);
-    if (arguments.json)
-        print(heatJson(volume, *result));
-    else if (arguments.csv || arguments.output.empty())
-        print(heatTable(volume, *result), arguments.csv ? TableFormat::Csv : TableFormat::Text);
+    printHeat(arguments, volume, *result);
     if (!arguments.output.empty())
         summarize(fmt::format("{}: field '{}', {} rooms, {} times from 0 to {:g} h", arguments.output.string(),
                               arguments.name, result->times.front().rooms.size(), result->times.size(), time.hours));
@@ -180,9 +187,9 @@ Members<HeatArguments> membersOf(const HeatArguments*) noexcept {
                              .otherwise = "the steady state at the first temperature of outside air",
                              .group = "Time"}),
         member<&All::step>("--step", "length of a step of time",
-                           {.unit = "minutes", .least = 0.001, .most = 1e6, .otherwise = "15", .group = "Time"}),
+                           {.unit = "minutes", .least = 0.001, .most = 1e6, .group = "Time"}),
         member<&All::every>("--every", "time between results, a whole number of steps",
-                            {.unit = "hours", .least = 0.0001, .most = 1e6, .otherwise = "1", .group = "Time"}),
+                            {.unit = "hours", .least = 0.0001, .most = 1e6, .group = "Time"}),
         member<&All::output>("-o,--output", "write the volume with the field of temperatures",
                              {.value = "F.svt", .group = "Output", .file = FileUse::Output, .formats = "svt"}),
         member<&All::name>("--name", "name of the field", {.value = "NAME", .group = "Output"}),

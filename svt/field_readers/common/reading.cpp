@@ -145,13 +145,8 @@ void setPrecision(fields::Field& field, const Reading& reading, Assumptions& ass
         field.head.precision = *reading.options.precision;
         return;
     }
-    float least = std::numeric_limits<float>::infinity(), most = -least;
-    for (const float value : field.values) {
-        if (std::isnan(value)) continue;
-        least = std::min(least, value);
-        most = std::max(most, value);
-    }
-    if (most >= least) field.head.precision = fields::precisionFor(double{least}, double{most});
+    if (const auto range = fields::rangeOf(field))
+        field.head.precision = fields::precisionFor(double{range->first}, double{range->second});
     if (field.head.precision > 0)
         assumptions.add("precision",
                         fmt::format("values are rounded to multiples of {} {}", field.head.precision, field.head.unit));

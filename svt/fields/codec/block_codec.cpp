@@ -214,14 +214,8 @@ Result<FieldCode> codeFor(const Field& field) {
     if (head.kind == FieldKind::Grid)
         while (blocksOf(head.lattice, code.levels - 1) > 1) ++code.levels;
     if (code.isFloat) return code;
-    bool hasValue = false;
-    double low = 0, high = 0;
-    for (const float value : field.values) {
-        if (std::isnan(value)) continue;
-        low = hasValue ? std::min(low, double{value}) : double{value};
-        high = hasValue ? std::max(high, double{value}) : double{value};
-        hasValue = true;
-    }
+    const auto range = rangeOf(field).value_or(std::pair(0.0F, 0.0F));
+    const double low{range.first}, high{range.second};
     code.scale = head.precision;
     code.offset = std::round(low / code.scale) * code.scale;
     if (!(std::round((high - code.offset) / code.scale) <= kMostCode))

@@ -260,17 +260,6 @@ std::vector<bool> nodesWithValue(const Field& field, std::size_t places) {
     return has;
 }
 
-std::optional<std::pair<float, float>> rangeOf(const std::vector<float>& values) {
-    std::optional<std::pair<float, float>> range;
-    for (const float value : values) {
-        if (std::isnan(value)) continue;
-        if (!range) range.emplace(value, value);
-        range->first = std::min(range->first, value);
-        range->second = std::max(range->second, value);
-    }
-    return range;
-}
-
 }  // namespace
 
 Result<FieldSampler> FieldSampler::make(const Field& field, const SemanticVolume& volume) {
@@ -298,7 +287,7 @@ Result<FieldSampler> FieldSampler::make(const Field& field, const SemanticVolume
         if (field.head.kind == FieldKind::Points) parts->rooms = RoomPoints(field.head, volume);
     }
     FieldSampler sampler;
-    sampler.range_ = rangeOf(field.values);
+    sampler.range_ = rangeOf(field);
     sampler.parts_ = std::move(parts);
     return sampler;
 }

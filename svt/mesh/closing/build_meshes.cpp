@@ -158,7 +158,7 @@ double volumeWithFans(const ObjectMesh& mesh) {
 void finish(ObjectMesh& mesh, const SharedVolume& shared, bool measuresThickness) {
     if (mesh.isSolid()) {
         mesh.flippedFaces += orientOutwards(mesh.vertices, mesh.triangles);
-        mesh.volume = shared.isAny() ? shared.unionVolume() : signedVolume(mesh.vertices, mesh.triangles);
+        mesh.volume = shared.isAny() ? shared.unionVolume().value_or(0) : signedVolume(mesh.vertices, mesh.triangles);
         mesh.isVolumeKnown = shared.isKnown;
     }
     for (Triangle& triangle : mesh.triangles) triangle.thickness = std::numeric_limits<float>::infinity();

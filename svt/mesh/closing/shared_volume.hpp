@@ -5,6 +5,7 @@
 #include <svt/mesh/closing/shell.hpp>
 #include <svt/mesh/closing/sources.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace svt::mesh {
@@ -14,8 +15,10 @@ struct SharedVolume {
     double shared = 0;    ///< m3: of all pairs
     bool isKnown = true;  ///< false: three solids overlap each other, or there are too many faces to compare
     [[nodiscard]] bool isAny() const noexcept { return shared > 0 || !isKnown; }
-    /// m3 of their union; 0: unknown.
-    [[nodiscard]] double unionVolume() const noexcept { return isKnown ? sum - shared : 0; }
+    /// m3 of their union; nothing if it is unknown.
+    [[nodiscard]] std::optional<double> unionVolume() const noexcept {
+        return isKnown ? std::optional(sum - shared) : std::nullopt;
+    }
 };
 
 /// The space that the solids of an object share, exact. Solids that only touch share none, nor do those that overlap by

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace svt::simulate {
@@ -168,13 +169,8 @@ private:
         head.times.clear();
         for (const HeatAtTime& at : result_.times) head.times.push_back(at.seconds);
         head.epoch = time_.weather.epoch;
-        float low = std::numeric_limits<float>::infinity(), high = -low;
-        for (const float value : result_.temperature.values)
-            if (std::isfinite(value)) {
-                low = std::min(low, value);
-                high = std::max(high, value);
-            }
-        if (high - low > kFineRange) head.precision = 0.1;
+        const auto range = fields::rangeOf(result_.temperature);
+        if (range && range->second - range->first > kFineRange) head.precision = 0.1;
         head.parameters = parameters(head.parameters);
     }
 

@@ -49,9 +49,8 @@ private:
     HeatEquations& equations_;
     const HeatOptions& options_;
     double seconds_ = 0, capacity_ = 0, received_ = 0;
-    std::vector<double> mass_;  // W/K: m of each cell
-    std::vector<double> zones_,
-        before_;  // W of each cell from the air of zones, at a time and at the begin of the step
+    std::vector<double> mass_;            // W/K: m of each cell
+    std::vector<double> zones_, before_;  // W of each cell from the air of zones: at a time, and as the step begins
     std::vector<double> flow_, middle_, change_;
     std::unique_ptr<Multigrid> multigrid_;
 };

@@ -192,13 +192,8 @@ private:
     }
 
     [[nodiscard]] double precisionOf() const {
-        float low = std::numeric_limits<float>::infinity(), high = -low;
-        for (const float value : result_.field.values)
-            if (std::isfinite(value)) {
-                low = std::min(low, value);
-                high = std::max(high, value);
-            }
-        return low <= high ? fields::precisionFor(double{low}, double{high}) : 0;
+        const auto range = fields::rangeOf(result_.field);
+        return range ? fields::precisionFor(double{range->first}, double{range->second}) : 0;
     }
 
     [[nodiscard]] std::string parameters() const {

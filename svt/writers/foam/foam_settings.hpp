@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The files of an OpenFOAM case that are the same for every volume.
+/// Files of an OpenFOAM case whose text does not depend on the volume.
 
 #include <span>
 #include <string_view>
