@@ -46,11 +46,14 @@ class Read(unittest.TestCase):
 
     def test_unit(self):
         file = write_boxes("unit.city.json", (8000, 4000, 3000), {"b": {}})
-        for unit, metres in (("mm", 0.001), ("cm", 0.01), ("ft", 0.3048), ("of-file", 1)):
+        for unit, metres in (("mm", 0.001), ("cm", 0.01), ("ft", 0.3048), ("m", 1)):
             v = svt.build(svt.read(file, unit=unit), dimension=(20, 20, 20))
             np.testing.assert_allclose(extent(v, "b"), np.array([8000, 4000, 3000]) * metres, rtol=1e-5)
         findings = [finding for finding in svt.read(file, unit="mm").findings if finding.code == "E120"]
         self.assertEqual(len(findings), 1)
+        for read in (lambda: svt.read(file), lambda: svt.build(file, unit="of-file", dimension=(20, 20, 20))):
+            with self.assertRaisesRegex(svt.Error, "E127.*3000 units high"):
+                read()
         self.refuses("unit", "miles", file)
 
     def test_date(self):

@@ -47,29 +47,35 @@ Result<int> convertToTable(const ConvertArguments& arguments) {
     return runFeatureQuery(query);
 }
 
+// The options of a struct that differ from their defaults: "--place, --lift".
+template <record::Recorded T>
+std::string changedOptions(const T& given) {
+    std::vector<std::string_view> names;
+    for (const record::Member<T>& member : record::membersOf<T>())
+        if (member.write(member.option, given) != member.write(member.option, T()))
+            names.push_back(member.option.option);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
 // Refuses options of other formats than that of the output, because they would have no effect.
 // \param format  of writers::volumeFormats(); empty: a table of features
 Result<void> checkFormatOptions(const writers::VolumeWriteOptions& given, std::string_view format) {
-    const writers::VolumeWriteOptions usual;
-    const auto differ = [](const auto& a, const auto& b) { return record::recordText(a) != record::recordText(b); };
-    struct Owned {
-        bool isGiven;
-        std::string_view options, formats;
-    };
-    const Owned all[] = {
-        {given.texture != usual.texture, "--texture", "x3d|ade"},
-        {differ(given.cityGml, usual.cityGml), "--model and --citygml", "ade"},
-        {differ(given.zarr, usual.zarr), "--zarr and its layout", "zarr"},
-        {differ(given.precomputed, usual.precomputed), "--meshes and further options of neuroglancer", "precomputed"},
-        {differ(given.tileset, usual.tileset), "--place, --lift, --voxels, --meshopt and --per-building", "tileset"},
-        {differ(given.vdb, usual.vdb), "--level-sets", "vdb"},
-        {differ(given.boxes, usual.boxes), "--merge, --max-boxes, --holes and --vents", "fds|boxes|boxesjson"},
-        {differ(given.foam, usual.foam), "--air and --surface-temperature", "foam"}};
+    const struct Owned {
+        std::string options;
+        std::string_view formats;
+    } all[] = {{given.texture != writers::VolumeWriteOptions().texture ? "--texture" : "", "x3d|ade"},
+               {changedOptions(given.cityGml), "ade"},
+               {changedOptions(given.zarr), "zarr"},
+               {changedOptions(given.precomputed), "precomputed"},
+               {changedOptions(given.tileset), "tileset"},
+               {changedOptions(given.vdb), "vdb"},
+               {changedOptions(given.boxes), "fds|boxes|boxesjson"},
+               {changedOptions(given.foam), "foam"}};
     for (const Owned& owned : all) {
         const std::vector<std::string_view> formats = splitChoices(owned.formats);
-        if (!owned.isGiven || std::ranges::find(formats, format) != formats.end()) continue;
-        return Error(Code::BadArgument, fmt::format("{}: only for the formats {}, and the output has another format",
-                                                    owned.options, fmt::join(formats, ", ")));
+        if (owned.options.empty() || std::ranges::find(formats, format) != formats.end()) continue;
+        return Error(Code::BadArgument, fmt::format("{}: only for {}, and the output has another format", owned.options,
+                                                    fmt::join(formats, ", ")));
     }
     return {};
 }

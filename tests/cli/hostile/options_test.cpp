@@ -281,10 +281,8 @@ TEST_F(PipesInFolders, AreErrorsOfWhoReadsZarr) {
     runSvtWell(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "1"});
     runSvtWell(folder.path(), {"convert", "two.svt", "two.zarr"});
     runSvtWell(folder.path(), {"convert", "two.svt", "three.zarr", "--zarr", "3"});
-    runSvtWell(folder.path(), {"convert", "two.svt", "sharded.zarr", "--zarr", "3", "--sharded"});
     const std::pair<std::string, std::vector<std::string>> files[] = {{"two.zarr", {".zattrs", "0/.zarray", "0/0/0/0"}},
-                                                                      {"three.zarr", {"0/zarr.json", "0/c/0/0/0"}},
-                                                                      {"sharded.zarr", {"0/zarr.json", "0/c/0/0/0"}}};
+                                                                      {"three.zarr", {"0/zarr.json", "0/c/0/0/0"}}};
     for (const auto& [whole, names] : files)
         for (const std::string& name : names) {
             expectRefused(whole, name, {"info", "tried"}, kInput);
