@@ -37,17 +37,26 @@ const VolumeObject::Measures& VolumeObject::measures() {
     return *measures_;
 }
 
-Result<illustrate::Painting> VolumeObject::paint(const illustrate::Scene& scene, const render::CastOptions& options,
-                                                 std::vector<std::string>& nothing) {
+Result<illustrate::Painting> VolumeObject::paint(illustrate::Scene scene, frontend::SurfaceSource surfaces,
+                                                 const render::CastOptions& options, std::vector<std::string>& notes) {
     const std::lock_guard lock(painting_);
     if (!painter_) painter_.emplace(volume_);
+    if (surfaces == frontend::SurfaceSource::Exact) {
+        SVT_DO(frontend::prepareForFaces(scene));
+        if (!faces_) {
+            SVT_TRY(made, frontend::makeFaces(volume_, notesOfFaces_));
+            faces_ = std::move(*made);
+        }
+        notes = notesOfFaces_;
+    }
+    painter_->drawBy(surfaces == frontend::SurfaceSource::Exact ? faces_.get() : nullptr);
     std::optional<fields::Field> field;
     if (scene.field && !path_.empty()) {
         SVT_TRY(read, fields::readField(path_, scene.field->name));
         field = std::move(*read);
         SVT_DO(painter_->showField(&*field));
     }
-    painter_->tolerateNothing(&nothing);
+    painter_->tolerateNothing(&notes);
     painter_->reportTo(options.progress);
     auto painting = painter_->paint(scene, options);
     painter_->tolerateNothing(nullptr);

@@ -300,6 +300,10 @@ class Command(unittest.TestCase):
                     "volume",
                 ],
             ),
+            (
+                {"size": (200, 150), "section": "y<4.3", "hide": "class=BuildingRoom", "surfaces": "exact"},
+                ["--size", "200x150", "--section", "y<4.3", "--hide", "class=BuildingRoom", "--surfaces", "exact"],
+            ),
         ]
         for options, arguments in pairs:
             try:
@@ -331,6 +335,8 @@ class Command(unittest.TestCase):
                 self.assertTrue(a.read() == b.read(), options)
         with self.assertRaisesRegex(svt.Error, "for one volume only"):
             city.render(explode=2)
+        with self.assertRaisesRegex(svt.Error, "surfaces: exact is for one volume only"):
+            city.render(surfaces="exact")
         with self.assertRaises(svt.Error):
             svt.City(path("nowhere"))
 

@@ -117,7 +117,7 @@ struct PlanOptions {
 /// the date are left out, too (FeatureEnded), and features that cannot be read or have no geometry (FeatureSkipped).
 /// Features that refer to others are reported (LinkedFeature).
 /// \return the plan, or the error of a file that cannot be cut into features; Truncated; EmptyModel if nothing is left;
-///         ManySkipped if more features cannot be read than allowed; UnitInDoubt; BadArgument; CannotWrite, DiskFull; Cancelled
+///         ManySkipped if more features cannot be read than allowed; BadArgument; CannotWrite, DiskFull; Cancelled
 /// Cost: about that of reading the files. Memory: 52 bytes per feature, and a few hundred MB.
 [[nodiscard]] Result<Plan> makePlan(std::span<const std::filesystem::path> files, const std::filesystem::path& folder,
                                     const PlanOptions& options, Diagnostics& diagnostics);

@@ -41,6 +41,7 @@ enum class Code : std::uint16_t {
     MapScale = 126,           ///< a projection that shows lengths far from their true size
     UnitInDoubt = 127,        ///< coordinates that do not look like metres, in a file without a unit
     FeatureEnded = 128,       ///< a feature that does not exist at the date that is read; left out
+    OutsideArea = 129,        ///< coordinates outside of the area in which their CRS is used
     BadStep = 130,            ///< not a STEP file (ISO 10303-21), or one without records
     BadRecord = 131,          ///< a record of a STEP file that cannot be read; left out
     ReadInPart = 132,         ///< a product without a part of its shape or an opening that was not read

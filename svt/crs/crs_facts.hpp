@@ -33,7 +33,7 @@ struct CrsFacts {
 [[nodiscard]] std::optional<Box3d> areaOf(int epsg) noexcept;
 
 /// Whether a place lies in the area of use of a code, with a margin of one degree; nothing if that is unknown. Degrees
-/// and UTM zones are known by the tables, other projections with north first by PROJ.
+/// and UTM zones are known by the tables, other projections by PROJ.
 /// \param place  x: east or longitude, y: north or latitude, in units of the code
 /// Cost: microseconds, with PROJ milliseconds.
 [[nodiscard]] std::optional<bool> isInAreaOfUse(int epsg, Vec3d place);

@@ -87,4 +87,8 @@ std::vector<std::string> valuesOfKey(const std::string& key, const volume::Label
     return values;
 }
 
+std::string noValueOfKey(std::string_view key) {
+    return fmt::format("no feature of these sums has a value for '{}'; svt info lists the attributes", key);
+}
+
 }  // namespace svt::frontend

@@ -25,4 +25,7 @@ namespace svt::frontend {
                                                    const analyze::Extents& extents,
                                                    const std::vector<std::uint32_t>& features);
 
+/// The note that no feature of a sum has a value for a key.
+[[nodiscard]] std::string noValueOfKey(std::string_view key);
+
 }  // namespace svt::frontend

@@ -5,6 +5,7 @@
 #include <svt/frontend/label_values.hpp>
 #include <svt/model/classes.hpp>
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -137,6 +138,9 @@ Result<TakeOff> measureTakeOff(const volume::SemanticVolume& volume, const TakeO
     SVT_DO(completeTakeOff(question, takeOff, progress));
     if (takeOff.objects.empty())
         notes.emplace_back("no objects are measured; use --where with a query that selects objects");
+    for (std::size_t k = 0; k < takeOff.keys.size() && !takeOff.objects.empty(); ++k)
+        if (std::ranges::all_of(takeOff.values, [&](const auto& values) { return values[k].empty(); }))
+            notes.push_back(noValueOfKey(takeOff.keys[k]));
     for (std::string& text : takeOffNotes(takeOff)) notes.push_back(std::move(text));
     return takeOff;
 }

@@ -28,6 +28,23 @@ PolygonIndex BuildingModel::addPolygon(Polygon polygon) {
     return static_cast<PolygonIndex>(polygons.size() - 1);
 }
 
+Place BuildingModel::placeOf(FeatureIndex feature) const {
+    // A feature that was added after reading has an ancestor that was read.
+    FeatureIndex root = feature;
+    while (features[root].parent != kNoFeature) root = features[root].parent;
+    const std::string* file = &source;
+    for (const JoinedFile& joined : joinedFiles)
+        if (root >= joined.firstFeature) file = &joined.source;
+    return {*file, features[feature].line, 0, features[feature].id};
+}
+
+Place BuildingModel::placeOfPolygon(PolygonIndex polygon) const {
+    const std::string* file = &source;
+    for (const JoinedFile& joined : joinedFiles)
+        if (polygon >= joined.firstPolygon) file = &joined.source;
+    return {*file, 0, 0, polygons[polygon].id};
+}
+
 std::vector<FeatureIndex> BuildingModel::treeOrder() const {
     std::vector<FeatureIndex> order;
     order.reserve(features.size());

@@ -5,6 +5,7 @@
 /// Data only: nothing is repaired, closed or triangulated here.
 
 #include <svt/core/attribute.hpp>
+#include <svt/core/error.hpp>
 #include <svt/core/vec.hpp>
 
 #include <cstddef>
@@ -116,7 +117,14 @@ struct Crs {
 
 /// A whole model. Index-based: features and polygons refer to each other by index.
 struct BuildingModel {
-    std::string source;  ///< path or name as given by the caller
+    /// A file of a model that was joined from several.
+    struct JoinedFile {
+        std::string source;
+        FeatureIndex firstFeature = 0;
+        PolygonIndex firstPolygon = 0;
+    };
+
+    std::string source;  ///< path or name as given by the caller; of the first file
     std::string format;  ///< "CityGML 2.0", "CityJSON 1.1", "CityJSONSeq 2.0"
     Crs crs;
     std::string name;                 ///< name of the whole model, or empty
@@ -125,7 +133,8 @@ struct BuildingModel {
     std::vector<Membership> memberships;
     std::vector<Polygon> polygons;
     std::vector<Material> materials;
-    std::vector<Polyline> lines;  ///< in the order of their features
+    std::vector<Polyline> lines;          ///< in the order of their features
+    std::vector<JoinedFile> joinedFiles;  ///< the files after the first
 
     /// Adds a feature under `parent` (kNoFeature: as a root) and returns its index.
     FeatureIndex addFeature(Feature feature, FeatureIndex parent);
@@ -133,6 +142,10 @@ struct BuildingModel {
     PolygonIndex addPolygon(Polygon polygon);
     /// Features in tree order (depth first, children in document order). Cost: O(features).
     [[nodiscard]] std::vector<FeatureIndex> treeOrder() const;
+    /// The file, line and id of a feature, for findings. Cost: O(depth of the feature + files).
+    [[nodiscard]] Place placeOf(FeatureIndex feature) const;
+    /// The file and id of a polygon, for findings. Cost: O(files).
+    [[nodiscard]] Place placeOfPolygon(PolygonIndex polygon) const;
     /// Box around all points of `geometry`; empty for none. World space, metres.
     [[nodiscard]] Box3d bounds(const Geometry& geometry) const;
 };

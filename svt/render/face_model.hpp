@@ -48,10 +48,16 @@ public:
     [[nodiscard]] std::size_t sizeBytes() const noexcept;
     [[nodiscard]] std::uint64_t scalarCount() const noexcept override;
 
-    /// Crossings within 0.1 mm of each other are in one place. A translucent sheet absorbs light as if it were one voxel
-    /// thick. Cost: O(log(triangles) * crossings up to the end of the walk).
+    /// Visits the runs of one ray in [from, to), which must lie in spanInVolume(). Crossings within 0.1 mm of each other
+    /// are in one place. A translucent sheet absorbs light as if it were one voxel thick.
+    /// \param metresPerT  metres per unit of the ray's parameter
+    /// Cost: O(log(triangles) * crossings up to the end of the walk).
     void walk(const volume::BrickVolume& bricks, const VoxelRay& ray, double metresPerT, double from, double to,
-              RunVisitor& visitor) const override;
+              RunVisitor& visitor) const;
+    /// Walks as walk(). The rays of 8 x 8 pixels share the list of triangles that they may cross. Cost: O(log(triangles))
+    /// for each list, and O(its triangles up to the end of the walk) for each ray.
+    [[nodiscard]] std::unique_ptr<RunWalker> makeWalker(const volume::BrickVolume& bricks, const CameraRays& rays,
+                                                        PictureSize size) const override;
     [[nodiscard]] std::unique_ptr<PointCaster> makeCaster(const PreparedFrame& frame) const override;
 
     struct Data;

@@ -3,7 +3,7 @@
 /// The runs of a ray from another source than bricks, such as the faces of a model (face_model.hpp).
 
 #include <svt/core/vec.hpp>
-#include <svt/render/voxel_ray.hpp>
+#include <svt/render/camera_rays.hpp>
 #include <svt/volume/brick_volume.hpp>
 
 #include <cstdint>
@@ -13,6 +13,10 @@ namespace svt::render {
 
 class PointCaster;
 struct PreparedFrame;
+
+struct PictureSize {
+    std::int32_t width = 0, height = 0;
+};
 
 /// The start of a run.
 struct RunStart {
@@ -34,6 +38,18 @@ public:
     virtual bool leave(volume::Scalar scalar, double from, double to) = 0;              ///< true ends the walk
 };
 
+/// Finds the runs of the rays of one camera. Not thread-safe: one per thread.
+class RunWalker {
+public:
+    RunWalker() = default;
+    RunWalker(const RunWalker&) = delete;
+    RunWalker& operator=(const RunWalker&) = delete;
+    virtual ~RunWalker() = default;
+    /// Visits the runs of [from, to) of the ray through (u, v), which must lie in spanInVolume().
+    /// \param ray  CameraRays::at(u, v)
+    virtual void walk(double u, double v, const CameraRay& ray, double from, double to, RunVisitor& visitor) = 0;
+};
+
 /// Finds the runs of rays through a volume. Thread-safe to read.
 class RunSource {
 public:
@@ -43,11 +59,12 @@ public:
     virtual ~RunSource() = default;
     /// 1 + the largest scalar of a run that does not come from the bricks.
     [[nodiscard]] virtual std::uint64_t scalarCount() const noexcept = 0;
-    /// Visits the runs of [from, to), which must lie in spanInVolume().
-    /// \param bricks      of the volume
-    /// \param metresPerT  metres per unit of the ray's parameter
-    virtual void walk(const volume::BrickVolume& bricks, const VoxelRay& ray, double metresPerT, double from, double to,
-                      RunVisitor& visitor) const = 0;
+    /// A walker of the rays of a camera, which must outlive it, like the bricks.
+    /// \param bricks  of the volume
+    /// \param size    of the picture, pixels; nearby rays may share work. Not positive: each ray is walked by itself,
+    ///                with the same runs
+    [[nodiscard]] virtual std::unique_ptr<RunWalker> makeWalker(const volume::BrickVolume& bricks,
+                                                                const CameraRays& rays, PictureSize size) const = 0;
     /// The caster of its rays: packets know only bricks.
     [[nodiscard]] virtual std::unique_ptr<PointCaster> makeCaster(const PreparedFrame& frame) const = 0;
 };

@@ -478,6 +478,49 @@ TEST_F(Convert, OptionsOfOtherFormatsAreRefused) {
     }
 }
 
+TEST_F(Convert, AVolumeIsNoModel) {
+    const CommandResult built = runSvt(folder.path(), {"build", "boxes.svt", "-o", "o.svt"});
+    EXPECT_NE(built.exitCode, 0);
+    EXPECT_NE(built.err.find("this is a volume (.svt), and a model is expected"), std::string::npos)
+        << built.toString();
+}
+
+TEST_F(Convert, TheModelOfAVolumeHasItsFeatures) {
+    const CommandResult other = runSvt(folder.path(), {"convert", "boxes.svt", "o.ade.gml", "--model", "boxes.gml"});
+    EXPECT_EQ(other.exitCode, 0) << other.toString();
+    EXPECT_EQ(other.err.find("gml:id"), std::string::npos) << other.toString();
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    const CommandResult none = runSvt(folder.path(), {"convert", "boxes.svt", "p.ade.gml", "--model", "house.gml"});
+    EXPECT_EQ(none.exitCode, kUsage) << none.toString();
+    EXPECT_NE(none.err.find("the model lacks all 3 features of the volume, such as 'a'"), std::string::npos)
+        << none.toString();
+    EXPECT_FALSE(fs::exists(folder / "p.ade.gml"));
+    std::string text = readText(folder / "boxes.gml");
+    text.replace(text.find("id=\"b\""), 6, "id=\"x\"");
+    writeText(folder / "part.gml", text);
+    const CommandResult part = runSvt(folder.path(), {"convert", "boxes.svt", "q.ade.gml", "--model", "part.gml"});
+    EXPECT_EQ(part.exitCode, 0) << part.toString();
+    EXPECT_NE(part.err.find("the model has no gml:id for 1 of the 3 features of the volume, such as 'b'"),
+              std::string::npos)
+        << part.toString();
+}
+
+TEST(Sample, OptionsOfOtherSamplesAreRefused) {
+    const TemporaryFolder folder;
+    for (const std::vector<std::string>& options :
+         std::vector<std::vector<std::string>>{{"house", "-o", "o.gml", "--storeys", "3"},
+                                               {"district", "-o", "o.gml", "--flats", "3"},
+                                               {"tower", "-o", "o.gml", "--rows", "2"},
+                                               {"house", "-o", "o.gml", "--thematic"},
+                                               {"house", "-o", "o.city.json", "--bake-openings"}}) {
+        std::vector<std::string> arguments{"sample"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const CommandResult result = runSvt(folder.path(), arguments);
+        EXPECT_EQ(result.exitCode, kUsage) << result.toString();
+        EXPECT_NE(result.err.find(options[3]), std::string::npos) << result.toString();
+    }
+}
+
 TEST_F(Convert, EveryFormatIsWrittenAndTheSameForAnyThreads) {
     // Boxes have no rooms, of which IndoorGML and cases of OpenFOAM are made.
     prepareHouse(folder.path(), "0.4");

@@ -126,6 +126,13 @@ TEST_F(FaceSums, CountEachFaceOnceByOwnerAndClass) {
     runSvtWell(folder.path(), {"query", "files/three.gml", "id=c", "-o", "c.csv", "--with", "faces"});
     EXPECT_NE(readText(folder / "c.csv").find("roofFaces"), std::string::npos);
     // Other columns of --with have no sums.
+    for (const char* command : {"query", "quantities"}) {
+        std::vector<std::string> arguments{command, "files/three.gml", "--by", "ownr"};
+        if (std::string(command) == "query") arguments.insert(arguments.begin() + 2, "all");
+        const CommandResult unknown = runSvt(folder.path(), arguments);
+        EXPECT_NE(unknown.err.find("no feature of these sums has a value for 'ownr'"), std::string::npos)
+            << unknown.toString();
+    }
     EXPECT_EQ(runSvt(folder.path(), {"query", "files/three.gml", "all", "--by", "class", "--with", "surface"}).exitCode,
               2);
 }

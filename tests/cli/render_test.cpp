@@ -566,6 +566,15 @@ TEST(Motion, PicturesOfASeriesAreThoseOfTheScene) {
     }
 }
 
+TEST(Motion, PicturesInWhichNothingMovesAreRefused) {
+    const TemporaryFolder folder;
+    prepareHouse(folder.path(), "0.5");
+    const CommandResult still =
+        runSvt(folder.path(), {"render", "house.svt", "-o", "p.png", "--frames", "3", "--section", "z=2"});
+    EXPECT_EQ(still.exitCode, kUsage) << still.toString();
+    EXPECT_NE(still.err.find("nothing moves in these pictures"), std::string::npos) << still.toString();
+}
+
 TEST(Motion, AMovingSectionIsKeptInTheWrittenScene) {
     const TemporaryFolder folder;
     prepareHouse(folder.path(), "0.25");

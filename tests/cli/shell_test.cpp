@@ -153,6 +153,9 @@ TEST_F(Shell, BadArgumentsAreRefused) {
     EXPECT_EQ(house.exitCode, 2);
     EXPECT_NE(house.err.find("component, room, storey, building"), std::string::npos) << house.toString();
     EXPECT_FALSE(std::filesystem::exists(folder / "s.svt"));
+    const CommandResult meshes = runSvt(folder.path(), {"shell", "tower.svt", "-o", "s.glb", "--faces", "meshes"});
+    EXPECT_EQ(meshes.exitCode, 0) << meshes.toString();
+    EXPECT_NE(meshes.err.find("it is written as by --faces planes"), std::string::npos) << meshes.toString();
 }
 
 TEST(RealShell, HouseWithoutInside) {

@@ -202,8 +202,9 @@ void addFindings(Diagnostics& diagnostics, const Checked& checked) {
         if (known.count({finding.code, id}) != 0) continue;
         std::string message = finding.message + " near " + placeText(finding.at);
         if (id != feature.id) message += fmt::format(", of {} '{}'", feature.className, feature.id);
-        diagnostics.add(Severity::Warning, finding.code, std::move(message),
-                        Place{checked.model.source, feature.line, 0, std::move(id)});
+        Place place = checked.model.placeOf(finding.feature);
+        place.id = std::move(id);
+        diagnostics.add(Severity::Warning, finding.code, std::move(message), std::move(place));
     }
 }
 

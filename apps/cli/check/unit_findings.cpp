@@ -29,8 +29,8 @@ Json accessJson(UnitAccess access) {
 class Reporter {
 public:
     Reporter(const model::BuildingModel& model, const volume::SemanticVolume& volume, Diagnostics& diagnostics)
-        : source_(model.source), labels_(volume.labels.labels), grid_(volume.grid), diagnostics_(diagnostics) {
-        for (const model::Feature& feature : model.features) lineOf_.emplace(feature.id, feature.line);
+        : model_(model), labels_(volume.labels.labels), grid_(volume.grid), diagnostics_(diagnostics) {
+        for (model::FeatureIndex f = 0; f < model.features.size(); ++f) featureOf_.emplace(model.features[f].id, f);
     }
 
     Json report(const analyze::LegalUnits& found) {
@@ -53,9 +53,10 @@ public:
 private:
     void warn(Code code, std::uint32_t label, std::string message, Severity severity = Severity::Warning) {
         const std::string& id = labels_[label].id;
-        const auto line = lineOf_.find(id);
-        diagnostics_.add(severity, code, std::move(message),
-                         {source_, line == lineOf_.end() ? 0 : line->second, 0, id});
+        const auto feature = featureOf_.find(id);
+        diagnostics_.add(
+            severity, code, std::move(message),
+            feature == featureOf_.end() ? Place{model_.source, 0, 0, id} : model_.placeOf(feature->second));
     }
 
     Json report(const analyze::UnitOverlap& overlap) {
@@ -94,11 +95,11 @@ private:
         return {{"id", labels_[unit.label].id}, {"common", unit.isCommon}, {"access", accessJson(unit.access)}};
     }
 
-    const std::string& source_;
+    const model::BuildingModel& model_;
     const std::vector<volume::Label>& labels_;
     const volume::Grid& grid_;
     Diagnostics& diagnostics_;
-    std::unordered_map<std::string_view, std::uint64_t> lineOf_;  // by id
+    std::unordered_map<std::string_view, model::FeatureIndex> featureOf_;  // by id
 };
 
 }  // namespace

@@ -171,6 +171,9 @@ Table FeatureSums::table() const {
 }
 
 void FeatureSums::note() const {
+    for (std::size_t k = 0; k < keys_.size(); ++k)
+        if (std::ranges::all_of(sums_, [&](const auto& sum) { return sum.first[k].empty(); }))
+            cli::note(frontend::noValueOfKey(keys_[k]));
     if (inParts_ > 0)
         cli::note(
             fmt::format("{} features count only with their parts, which have values of their own: each m3 counts "

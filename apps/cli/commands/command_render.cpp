@@ -17,6 +17,7 @@
 #include <svt/drawing/line_view.hpp>
 #include <svt/drawing/section_plane.hpp>
 #include <svt/fields/field.hpp>
+#include <svt/frontend/exact_faces.hpp>
 #include <svt/frontend/scene_options.hpp>
 #include <svt/illustrate/color_by.hpp>
 #include <svt/illustrate/details.hpp>
@@ -46,19 +47,12 @@
 namespace svt::cli {
 namespace {
 
-// The source of the labels of pictures.
-enum class SurfaceSource : std::uint8_t { Voxels, Exact };
-constexpr auto namesOf(SurfaceSource) {
-    return std::to_array<Name<SurfaceSource>>({{SurfaceSource::Voxels, "voxels"}, {SurfaceSource::Exact, "exact"}});
-}
-
 struct RenderArguments {
     std::vector<std::filesystem::path> with;
     std::filesystem::path owners, input, output, labelOutput, depthOutput, sceneOutput;
     pipeline::BuildOptions build;
     frontend::SceneOptions scene;
     int frames = 1;
-    SurfaceSource surfaces = SurfaceSource::Voxels;
     bool gl = false;
     bool verbose = false;
 };
@@ -94,7 +88,7 @@ private:
     const volume::BrickVolume* drawn_ = nullptr;
 };
 
-// Passes without a level get the finest one. OpenGL and exact surfaces draw no other level.
+// Passes without a level get the finest one. OpenGL draws no other level.
 void takeFinest(illustrate::Scene& scene) {
     for (illustrate::ScenePass& pass : scene.passes)
         if (!pass.representation.level) pass.representation.level = 0;
@@ -116,6 +110,10 @@ Result<Series> seriesOf(const RenderArguments& arguments, const illustrate::Scen
             return Error(Code::BadArgument,
                          "--turn moves the camera, which needs several pictures; give --frames N with N from 2, or "
                          "write a film (-o P.webm)");
+        if (arguments.frames != 1 && motion.turn == 0 && motion.keys.empty())
+            return Error(Code::BadArgument,
+                         "nothing moves in these pictures; let the camera go around (--turn 360), a section move "
+                         "(--section z=6..1), or give a scene with motion");
         series.count = arguments.frames;
         // The last picture shows the end. If the camera only goes around, the end would repeat the first picture.
         const int steps = motion.keys.empty() && motion.turn != 0 ? series.count : std::max(1, series.count - 1);
@@ -168,7 +166,7 @@ bool isEmpty(const render::Frame& frame) {
 // Options to keep the vector data of the model that a scene needs.
 pipeline::BuildOptions withVectors(const RenderArguments& arguments, const illustrate::Scene& scene) {
     pipeline::BuildOptions build = arguments.build;
-    build.vectors.meshes = build.vectors.meshes || arguments.surfaces == SurfaceSource::Exact;
+    build.vectors.meshes = build.vectors.meshes || arguments.scene.surfaces == frontend::SurfaceSource::Exact;
     for (const illustrate::ScenePass& pass : scene.passes) {
         build.vectors.edges = build.vectors.edges || !pass.lines.empty();
         build.vectors.meshes = build.vectors.meshes || !pass.meshes.empty();
@@ -313,37 +311,29 @@ Result<void> checkForField(const RenderArguments& arguments, const illustrate::S
     return {};
 }
 
-// Refuses parts of a scene that are drawn only from voxels.
-Result<void> checkForExact(const RenderArguments& arguments, const illustrate::Scene& scene) {
-    if (arguments.surfaces != SurfaceSource::Exact) return {};
-    const auto has = [&](const auto& isOne) { return std::any_of(scene.passes.begin(), scene.passes.end(), isOne); };
+// Refuses inputs, outputs and parts of a scene that are drawn only from voxels.
+Result<void> checkForFaces(const RenderArguments& arguments, illustrate::Scene scene) {
+    if (arguments.scene.surfaces != frontend::SurfaceSource::Exact) return {};
     const std::pair<bool, const char*> needs[] = {
         {isLineDrawing(arguments.output), "-o .svg or .pdf, which draw the faces already"},
         {arguments.gl, "--gl"},
         {!arguments.with.empty(), "--with"},
-        {isCity(arguments.input), "a city"},
-        {scene.explode != 0, "--explode (explode of a scene)"},
-        {has([](const auto& pass) { return pass.representation.hasCells; }), "--cells (cells of a scene)"},
-        {has([](const auto& pass) { return pass.representation.level.value_or(0) != 0; }),
-         "--level (level of a scene)"}};
+        {isCity(arguments.input), "a city"}};
     for (const auto& [isGiven, option] : needs)
         if (isGiven)
             return Error(Code::BadArgument,
                          fmt::format("--surfaces exact does not support {}; leave out one of the two", option));
-    return {};
+    return frontend::prepareForFaces(scene);
 }
 
 // The faces of the model, for exact pictures; null if voxels give the labels.
 Result<std::unique_ptr<render::FaceModel>> facesFor(const RenderArguments& arguments,
                                                     const volume::SemanticVolume& volume) {
-    if (arguments.surfaces != SurfaceSource::Exact) return std::unique_ptr<render::FaceModel>();
-    SVT_TRY(faces, render::FaceModel::make(volume, pipeline::labelsByPriority(volume.labels)));
-    if (const auto& counts = (*faces)->counts(); counts.byVoxels > 0)
-        note(
-            fmt::format("exact surfaces: {} of {} features have no closed mesh, a pattern, or material divided among "
-                        "surfaces; voxels show them",
-                        counts.byVoxels, counts.byVoxels + counts.solids + counts.sheets));
-    return std::move(*faces);
+    if (arguments.scene.surfaces != frontend::SurfaceSource::Exact) return std::unique_ptr<render::FaceModel>();
+    std::vector<std::string> notes;
+    auto faces = frontend::makeFaces(volume, notes);
+    for (const std::string& text : notes) note(text);
+    return faces;
 }
 
 // Draws and writes the picture of a scene.
@@ -472,7 +462,8 @@ Result<int> runVolumeRender(const RenderArguments& arguments, Series& series, co
     };
     int empty = 0;
     const auto draw = [&](illustrate::Scene& scene, int number) -> Result<void> {
-        if (arguments.gl || *faces) takeFinest(scene);
+        if (arguments.gl) takeFinest(scene);
+        if (*faces) SVT_DO(frontend::prepareForFaces(scene));
         SVT_TRY(painting,
                 arguments.gl ? painter.paint(scene, drawByGl) : painter.paint(scene, castOptions(arguments, progress)));
         empty += isEmpty(painting->frame);
@@ -497,7 +488,7 @@ Result<int> runRender(const RenderArguments& arguments) {
     // Validate the request before any long work.
     SVT_TRY(moving, arguments.scene.toScene(isFilm(arguments.output) ? std::nullopt : std::optional(arguments.frames)));
     SVT_TRY(series, seriesOf(arguments, *moving));
-    SVT_DO(checkForExact(arguments, *moving));
+    SVT_DO(checkForFaces(arguments, *moving));
     SVT_DO(checkForField(arguments, *moving));
     if (isCity(arguments.input)) return runCityRender(arguments, *series, *moving);
     if (isLineDrawing(arguments.output)) return runLineDrawing(arguments, *series, *moving);
@@ -531,11 +522,6 @@ Members<RenderArguments> membersOf(const RenderArguments*) noexcept {
         member<&All::frames>("--frames",
                              "number of pictures P_0000.png, ... of a section that moves, or of the scene's motion",
                              {.least = 1, .most = 10000, .group = "Motion"}),
-        member<&All::surfaces>(
-            "--surfaces",
-            "the source of the labels: the voxels, or the faces of the model, which are exact at any "
-            "spacing, but take several times as long",
-            {.group = "Output"}),
         member<&All::gl>("--gl", "draw the finest level with OpenGL ES 3.0; needs a driver, but no display",
                          {.group = "Output", .excludes = "--level"}),
         member<&All::labelOutput>(

@@ -77,7 +77,31 @@ Result<void> writeChangeList(const SampleArguments& arguments) {
     return {};
 }
 
+// Refuses options of other samples and formats, because they would have no effect.
+Result<void> checkOptions(const SampleArguments& arguments) {
+    using samples::SampleFormat;
+    using samples::SampleKind;
+    const samples::SampleOptions& given = arguments.options;
+    const samples::SampleOptions usual;
+    const SampleFormat format = formatOf(arguments);
+    const struct {
+        bool isGiven, hasEffect;
+        std::string_view text;
+    } all[] = {
+        {given.storeys != usual.storeys || given.flatsPerStorey != usual.flatsPerStorey,
+         arguments.kind == SampleKind::Tower, "--storeys and --flats: only for the sample tower"},
+        {given.columns != usual.columns || given.rows != usual.rows, arguments.kind == SampleKind::District,
+         "--columns and --rows: only for the sample district"},
+        {given.thematic, format == SampleFormat::CityGml2, "--thematic: only for CityGML 2.0 (--format citygml2)"},
+        {given.bakeOpenings, format == SampleFormat::Ifc4, "--bake-openings: only for IFC (-o FILE.ifc)"},
+    };
+    for (const auto& option : all)
+        if (option.isGiven && !option.hasEffect) return Error(Code::BadArgument, std::string(option.text));
+    return {};
+}
+
 Result<int> runSample(const SampleArguments& arguments) {
+    SVT_DO(checkOptions(arguments));
     if (!arguments.changeList.empty() && !arguments.options.change)
         return Error(Code::BadArgument, "--change-list needs --change with a seed");
     SVT_TRY(file, AtomicFile::create(arguments.output));

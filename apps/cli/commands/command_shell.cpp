@@ -59,6 +59,8 @@ Result<Json> writeShell(const volume::SemanticVolume& shell, const volume::Seman
         json["bytes"] = *bytes;
         return json;
     }
+    if (arguments.write.faces == writers::GlbFaces::Meshes)
+        note("--faces meshes: a shell has no faces of the model; it is written as by --faces planes");
     writers::GlbOptions options;
     options.faces = arguments.write.faces;
     options.planesOf = &volume;

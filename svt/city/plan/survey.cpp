@@ -89,11 +89,11 @@ private:
     }
 
     // The first batch of a file that can be read decides how all of it is read.
-    Result<void> decide(const readers::FeatureFile& file, const Batch& batch) {
+    void decide(const readers::FeatureFile& file, const Batch& batch) {
         Diagnostics findings;
         const auto first = file.read(viewsOf(batch), reading(), &findings);
-        if (!first && first.error().code() == Code::UnitInDoubt) return first.error();
-        if (!first) return {};  // reported for each feature
+        if (!first && first.error().code() == Code::UnitInDoubt) inDoubt_ = first.error().message();
+        if (!first) return;  // reported for each feature
         isDecided_ = true;
         for (const Diagnostic& item : findings.items())
             if (item.code == Code::AxisOrder || item.code == Code::MapScale)
@@ -109,11 +109,14 @@ private:
                                          "the city, EPSG:{}",
                                          survey_.crs),
                              {path_.string(), 0, 0, {}});
-        return {};
     }
 
     Result<void> takeBatch(const readers::FeatureFile& file, const Batch& batch) {
-        if (!isDecided_) SVT_DO(decide(file, batch));
+        if (!isDecided_ && inDoubt_.empty()) decide(file, batch);
+        if (!inDoubt_.empty()) {
+            featuresInDoubt_ += batch.texts.size();
+            return {};
+        }
         Diagnostics findings;
         std::vector<std::uint32_t> featureOf;
         const std::vector<std::string_view> views = viewsOf(batch);
@@ -216,6 +219,14 @@ private:
     }
 
     void tellSkipped() {
+        if (featuresInDoubt_ != 0) {
+            if (survey_.unreadable == 0) survey_.firstUnreadable = inDoubt_;
+            survey_.unreadable += featuresInDoubt_;
+            survey_.skipped += featuresInDoubt_;
+            diagnostics_.add(Severity::Warning, Code::UnitInDoubt,
+                             fmt::format("all {} features of the file are left out: {}", featuresInDoubt_, inDoubt_),
+                             {path_.string(), 0, 0, {}});
+        }
         if (empty_ != 0)
             diagnostics_.add(Severity::Warning, Code::FeatureSkipped,
                              fmt::format("{} features without geometry are left out", empty_),
@@ -239,8 +250,9 @@ private:
     Diagnostics& diagnostics_;
     PlanFile entry_;
     std::uint32_t number_ = 0;
-    std::uint64_t empty_ = 0, linked_ = 0, ended_ = 0;
+    std::uint64_t empty_ = 0, linked_ = 0, ended_ = 0, featuresInDoubt_ = 0;
     std::string firstEnded_;
+    std::string inDoubt_;  ///< reason why the unit of the file is in doubt
     bool isDecided_ = false, isWhole_ = false;
 };
 

@@ -28,8 +28,9 @@ struct Survey {
     std::vector<std::string> fileNames;  ///< as they were given
 };
 
-/// Adds the features of a file. The first file with a CRS decides that of the city.
-/// \return nothing, or the error of a file that cannot be cut; UnitInDoubt; Cancelled
+/// Adds the features of a file. The first file with a CRS decides that of the city. If the unit of a file is in doubt, its
+/// features are left out, with a warning.
+/// \return nothing, or the error of a file that cannot be cut; Cancelled
 Result<void> surveyFile(const std::filesystem::path& path, const PlanOptions& options, Survey& survey,
                         Diagnostics& diagnostics);
 

@@ -39,6 +39,7 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(MapScale);
         SVT_CASE(UnitInDoubt);
         SVT_CASE(FeatureEnded);
+        SVT_CASE(OutsideArea);
         SVT_CASE(BadStep);
         SVT_CASE(BadRecord);
         SVT_CASE(ReadInPart);

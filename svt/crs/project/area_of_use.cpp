@@ -44,7 +44,6 @@ std::optional<bool> isInAreaOfUse(int epsg, Vec3d place) {
         const auto area = areaOfDatum(zone->datum);
         return std::abs(degrees.x - zone->zone.longitude) <= kZoneReach && area && isInArea(*area, degrees);
     }
-    if (facts.order != AxisOrder::NorthEast) return std::nullopt;
     const auto area = project::projAreaOf(facts.horizontal);
     if (!area) return std::nullopt;
     const auto degrees = project::placeInDegrees(facts.horizontal, place);

@@ -244,7 +244,7 @@ std::string joinedText(const ObjectMesh& mesh) {
 void report(const BuildingModel& model, const Shell& shell, const SharedVolume& shared, const ObjectMesh& mesh,
             const MeshOptions& options, Vec3d origin, Diagnostics& log) {
     const Feature& feature = model.features[mesh.feature];
-    const Place place{model.source, feature.line, 0, feature.id};
+    const Place place = model.placeOf(mesh.feature);
     const std::string leaks = leakText(mesh, origin);
     if (shell.duplicateFaces != 0)
         log.add(Severity::Warning, Code::DuplicateFace,

@@ -102,7 +102,7 @@ void layOutPoints(const model::BuildingModel& model, const std::vector<std::uint
                 log->add(
                     Severity::Warning, Code::BadCoordinate,
                     fmt::format("a polygon has the coordinate ({}, {}, {}) and is left out", bad->x, bad->y, bad->z),
-                    {model.source, 0, 0, polygon.id});
+                    model.placeOfPolygon(static_cast<model::PolygonIndex>(p)));
             continue;
         }
         isGood[p] = 1;
@@ -181,7 +181,7 @@ LocalPolygons prepareLocalPolygons(const model::BuildingModel& model, const std:
         judge(result, model.polygons[p], findings);
         for (Finding& finding : findings)
             log->add(finding.severity, finding.code, std::move(finding.message),
-                     {model.source, 0, 0, model.polygons[p].id});
+                     model.placeOfPolygon(static_cast<model::PolygonIndex>(p)));
     }
     out.weldedCount = weld(out.points, out.pointIds);
     return out;

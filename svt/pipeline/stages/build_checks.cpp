@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace svt::pipeline {
@@ -55,10 +56,9 @@ Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshS
     for (const mesh::ObjectMesh& object : meshes.objects) {
         if (meetsGrid(object, meshes, grid)) continue;
         ++outside;
-        const model::Feature& feature = model.features[object.feature];
         if (log != nullptr)
             log->add(Severity::Warning, Code::NoGeometry, "no part of it lies in the given grid",
-                     {model.source, feature.line, 0, feature.id});
+                     model.placeOf(object.feature));
     }
     if (outside < meshes.objects.size()) return {};
     const Vec3d low = meshes.bounds.min + meshes.origin, high = meshes.bounds.max + meshes.origin;
@@ -76,13 +76,13 @@ void reportCutObjects(const model::BuildingModel& model, const mesh::MeshSet& me
     for (const std::uint32_t o : choice.cutObjects) {
         Box3d box;
         for (const Vec3d& vertex : meshes.objects[o].vertices) box.add(vertex);
-        const model::Feature& feature = model.features[meshes.objects[o].feature];
-        log.add(
-            Severity::Warning, Code::GridTooLarge,
-            fmt::format("this {} reaches over {:.0f} x {:.0f} m, far beyond all others; the default grid covers the "
-                        "others, {:.0f} x {:.0f} m, and its voxels end there; --spacing {} covers all of it",
-                        feature.className, box.size().x, box.size().y, size.x, size.y, choice.spacingOfAll),
-            {model.source, feature.line, 0, feature.id});
+        const model::FeatureIndex feature = meshes.objects[o].feature;
+        log.add(Severity::Warning, Code::GridTooLarge,
+                fmt::format(
+                    "this {} reaches over {:.0f} x {:.0f} m, far beyond all others; the default grid covers the "
+                    "others, {:.0f} x {:.0f} m, and its voxels end there; --spacing {} covers all of it",
+                    model.features[feature].className, box.size().x, box.size().y, size.x, size.y, choice.spacingOfAll),
+                model.placeOf(feature));
     }
 }
 
@@ -105,14 +105,13 @@ void checkVolumes(const model::BuildingModel& model, const Prepared& prepared, c
         const double most = double(mostVoxels(labelled.table, l, lost[o])) * grid.voxelVolume();
         const double least = double(label.voxels - std::min(label.voxels, label.thinVoxels)) * grid.voxelVolume();
         if (most >= object.enclosedVolume - allowed && least <= object.enclosedVolume + allowed) continue;
-        const model::Feature& feature = model.features[object.feature];
         log.add(Severity::Warning, Code::VolumeDiffers,
                 fmt::format(
                     "its voxels are {} m3, its shell encloses {} m3{}; expected at most {} m3 between them; look at "
                     "the object and correct its faces",
                     cubicMetres(most < object.enclosedVolume ? most : least), cubicMetres(object.enclosedVolume),
                     object.isSolid() ? "" : " if its holes are closed straight", cubicMetres(allowed)),
-                {model.source, feature.line, 0, feature.id});
+                model.placeOf(object.feature));
     }
 }
 
@@ -131,13 +130,13 @@ void reportLostFaces(const model::BuildingModel& model, const mesh::MeshSet& mes
                                share < 0.01 ? 1 : 0);
     }
     if (lostFaces.size() > kShown) objects += fmt::format(" and {} others", lostFaces.size() - kShown);
-    const model::Feature& first = model.features[meshes.objects[lostFaces.front().object].feature];
-    log.add(
-        Severity::Note, Code::WindingFilled,
-        fmt::format("the filling by winding number leaves out parts of the surface of {} object{}: {}; "
-                    "there, voxels draw the faces, and no volume counts them",
-                    lostFaces.size(), lostFaces.size() == 1 ? "" : "s", objects),
-        {model.source, lostFaces.size() == 1 ? first.line : 0, 0, lostFaces.size() == 1 ? first.id : std::string()});
+    Place place{model.source, 0, 0, {}};
+    if (lostFaces.size() == 1) place = model.placeOf(meshes.objects[lostFaces.front().object].feature);
+    log.add(Severity::Note, Code::WindingFilled,
+            fmt::format("the filling by winding number leaves out parts of the surface of {} object{}: {}; "
+                        "there, voxels draw the faces, and no volume counts them",
+                        lostFaces.size(), lostFaces.size() == 1 ? "" : "s", objects),
+            std::move(place));
 }
 
 }  // namespace
@@ -145,12 +144,11 @@ void reportLostFaces(const model::BuildingModel& model, const mesh::MeshSet& mes
 void reportBounds(const model::BuildingModel& model, const mesh::MeshSet& meshes,
                   const voxelize::VoxelizeResult& voxels, Diagnostics& log) {
     for (const std::uint32_t o : voxels.unfilled) {
-        const model::Feature& feature = model.features[meshes.objects[o].feature];
         log.add(
             Severity::Warning, Code::WindingFilled,
             fmt::format("its {} open edges are too many for winding numbers; it is kept as a surface without inside",
                         meshes.objects[o].openEdges.size()),
-            {model.source, feature.line, 0, feature.id});
+            model.placeOf(meshes.objects[o].feature));
     }
     reportLostFaces(model, meshes, voxels.lostFaces, log);
     if (voxels.crowdedVoxels != 0)

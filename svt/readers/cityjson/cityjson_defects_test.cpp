@@ -73,6 +73,20 @@ TEST(CityJsonDefects, BadVerticesSpoilOnlyTheirSurfaces) {
     EXPECT_NE(number.message.find("1e999"), std::string::npos);
 }
 
+TEST(CityJsonDefects, VerticesThatAreNoIntegersAreAWarning) {
+    const auto readOf = [](std::string_view transform) {
+        return read(
+            R"({"type":"CityJSON","version":"1.0",)" + std::string(transform) +
+            R"("CityObjects":{"b":{"type":"Building","geometry":[{"type":"MultiSurface","lod":2,"boundaries":[[[0,1,2]]]}]}},)"
+            R"("vertices":[[0.5,0,0],[1,0,0.25],[0,1,0]]})");
+    };
+    const Reading reading = readOf(R"("transform":{"scale":[1,1,1],"translate":[0,0,0]},)");
+    ASSERT_TRUE(reading.result) << reading.result.error().toString();
+    ASSERT_EQ(reading.diagnostics.count(Code::BadValue), 1u);
+    EXPECT_NE(reading.diagnostics.items().front().message.find("2 vertices are not integers"), std::string::npos);
+    EXPECT_EQ(readOf("").diagnostics.count(Code::BadValue), 0u);
+}
+
 TEST(CityJsonDefects, MissingMembersAreErrors) {
     const auto codeOf = [](std::string_view text) {
         const Reading reading = read(text);

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -94,12 +95,14 @@ std::optional<Vec3d> readVec3(const OptionalElement& value) {
 }
 
 /// A vertex that is not three numbers becomes NaN; surfaces that use it are reported and left out.
-std::vector<Vec3d> readVertices(json::array array, const Transform& transform) {
+/// \param fractional  is increased by the number of vertices that are not integers
+std::vector<Vec3d> readVertices(json::array array, const Transform& transform, std::atomic<std::uint64_t>& fractional) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     std::vector<Vec3d> vertices;
     vertices.reserve(array.size());
     for (const json::element item : array) {
         const auto v = readVec3(item);
+        if (v && (std::trunc(v->x) != v->x || std::trunc(v->y) != v->y || std::trunc(v->z) != v->z)) ++fractional;
         vertices.push_back(v ? transform.apply(*v) : Vec3d{kNan, kNan, kNan});
     }
     return vertices;
@@ -159,6 +162,12 @@ public:
             SVT_DO(readLines(headLine));
         }
         if (Progress::isCancelled(options_.progress)) return cancelled();
+        if (isTransformGiven_ && fractionalVertices_ > 0)
+            diagnostics_.add(Severity::Warning, Code::BadValue,
+                             fmt::format("{} vertices are not integers, which 'transform' requires; it is applied to "
+                                         "them as they are",
+                                         fractionalVertices_.load()),
+                             place(0));
         SVT_DO(linkObjects(std::move(objects_), name_, model_, anchors_, diagnostics_));
         if constexpr (textures::kReadsTextures)
             SVT_DO(textures::colorTextured(model_, textures_, name_, options_, diagnostics_));
@@ -220,7 +229,7 @@ private:
         if (!vertices && !(hasLines && cityObjects->size() == 0))
             return Error(Code::BadJson, "the member 'vertices' is absent or not an array", place(line));
         std::vector<Vec3d> points;
-        if (vertices) points = readVertices(*vertices, transform_);
+        if (vertices) points = readVertices(*vertices, transform_, fractionalVertices_);
         return readObjects(*cityObjects, contextOf(origin, points));
     }
 
@@ -275,6 +284,7 @@ private:
                 "'transform' needs a 'scale' of three numbers that are not 0 and a 'translate' of three numbers",
                 place(0));
         transform_ = {*scale, *translate};
+        isTransformGiven_ = true;
         return {};
     }
 
@@ -287,8 +297,9 @@ private:
                 // At least the size of a feature, so that empty templates count as well.
                 templates_.textBytes.push_back(std::max<std::size_t>(64, simdjson::minify(geometry).size()));
             }
+        std::atomic<std::uint64_t> fractionalOfTemplates{0};  // allowed
         if (const auto array = asArray(findMember(*object, "vertices-templates")))
-            templates_.vertices = readVertices(*array, {});
+            templates_.vertices = readVertices(*array, {}, fractionalOfTemplates);
     }
 
     Result<void> readObjects(json::object cityObjects, const TextContext& context) {
@@ -400,7 +411,7 @@ private:
         // The sum over a batch decides, so that failure does not depend on the order of threads.
         for (const auto [id, value] : *cityObjects) instancedBytes_ += instancedBytes(value, templates_);
         if (instancedBytes_ > kMaxInstancedBytes) return;
-        const std::vector<Vec3d> points = readVertices(*vertices, transform_);
+        const std::vector<Vec3d> points = readVertices(*vertices, transform_, fractionalVertices_);
         TextContext context = contextOf(origin, points);
         line.materials = readMaterials(members.appearance);
         if (!line.materials.empty()) {
@@ -458,9 +469,9 @@ private:
     Diagnostics& diagnostics_;
     JsonText headText_;  ///< owns the templates and the theme
     Transform transform_;
-    bool isTransformOptional_ = false;
+    bool isTransformOptional_ = false, isTransformGiven_ = false;
     TemplateSet templates_;
-    std::atomic<std::uint64_t> instancedBytes_{0};
+    std::atomic<std::uint64_t> instancedBytes_{0}, fractionalVertices_{0};
     std::string_view theme_;
     std::size_t headMaterials_ = 0;
     /// Key: name, colour and transparency of the materials of lines.

@@ -152,7 +152,7 @@ std::size_t extrudeFootprints(model::BuildingModel& model, Diagnostics* diagnost
                          fmt::format("{} footprints have neither measuredHeight nor height and stay flat, this is the "
                                      "first",
                                      unknown),
-                         {model.source, model.features[firstUnknown].line, 0, model.features[firstUnknown].id});
+                         model.placeOf(static_cast<model::FeatureIndex>(firstUnknown)));
     return extruded;
 }
 

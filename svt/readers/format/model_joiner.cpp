@@ -45,6 +45,7 @@ void ModelJoiner::keepIdUnique(model::Feature& feature, const std::string& sourc
 void ModelJoiner::append(model::BuildingModel from) {
     const auto firstFeature = static_cast<model::FeatureIndex>(all_.features.size());
     const auto firstPolygon = static_cast<model::PolygonIndex>(all_.polygons.size());
+    all_.joinedFiles.push_back({from.source, firstFeature, firstPolygon});
     const auto firstMaterial = static_cast<std::int32_t>(all_.materials.size());
     for (model::Polygon& polygon : from.polygons) {
         if (polygon.material >= 0) polygon.material += firstMaterial;

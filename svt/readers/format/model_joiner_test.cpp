@@ -33,6 +33,33 @@ TEST(ModelJoiner, KeepsIdsApart) {
     EXPECT_EQ(joiner.count(), 3u);
 }
 
+TEST(ModelJoiner, PlacesNameTheFileOfEachFeature) {
+    ModelJoiner joiner(nullptr);
+    for (const char* name : {"first.gml", "second.gml", "third.gml"}) {
+        model::BuildingModel model;
+        model.source = name;
+        model::Feature feature;
+        feature.id = std::string("of ") + name;
+        feature.line = 7;
+        const auto root = model.addFeature(feature, model::kNoFeature);
+        model.addFeature(feature, root);
+        model.addPolygon({{}, {}, "polygon", -1});
+        joiner.add(std::move(model));
+    }
+    model::BuildingModel& joined = joiner.joined();
+    joined.addFeature({}, 2);  // made later, below a feature of the second file
+    const auto fileOf = [&](model::FeatureIndex feature) { return joined.placeOf(feature).file; };
+    EXPECT_EQ(fileOf(0), "first.gml");
+    EXPECT_EQ(fileOf(1), "first.gml");
+    EXPECT_EQ(fileOf(3), "second.gml");
+    EXPECT_EQ(fileOf(5), "third.gml");
+    EXPECT_EQ(fileOf(6), "second.gml");
+    EXPECT_EQ(joined.placeOf(2).line, 7u);
+    EXPECT_EQ(joined.placeOf(2).id, "of second.gml");
+    EXPECT_EQ(joined.placeOfPolygon(0).file, "first.gml");
+    EXPECT_EQ(joined.placeOfPolygon(2).file, "third.gml");
+}
+
 TEST(ModelJoiner, OneModelStaysAsItIs) {
     ModelJoiner joiner(nullptr);
     joiner.add(modelOf("a", {"x", "x"}));

@@ -141,10 +141,13 @@ Result<ZipMember> findZipMember(ZipBytes bytes, std::string_view archive,
             fmt::format("{} bytes stand behind the end of the zip archive; copy or download it again", end->beyond));
     auto entries = readDirectory(bytes, end->offset);
     if (!entries) return failed(Code::CannotOpen, archive, "the directory of the zip archive is damaged");
+    const bool isVolume = std::ranges::any_of(*entries, [](const auto& entry) { return entry.name == "svt.json"; });
     std::erase_if(*entries, [&](const DirectoryEntry& entry) { return !isWanted(entry, extensions); });
     if (entries->empty())
         return failed(Code::UnknownFormat, archive,
-                      "this is a zip archive without an IFC file (.ifc); unpack it first");
+                      isVolume
+                          ? "this is a volume (.svt), and a model is expected; give the model from which it was built"
+                          : "this is a zip archive without an IFC file (.ifc); unpack it first");
     if (entries->size() > 1)
         return failed(Code::CannotOpen, archive,
                       fmt::format("the zip archive holds {} models, and one is expected: {}; unpack it and read them "

@@ -196,10 +196,12 @@ private:
             if (!projection) return Error(projection.error().code(), projection.error().message(), given_.place);
             if (heightUnit == 0) heightUnit = projection->metresPerUnit();
             if (Result<void> done = project(*projection); !done) return done;
+            findUsed();
             tell(*projection, source, isDegrees, isForeign, heightUnit);
         }
         if (heightUnit != 0 && heightUnit != 1) scaleHeights(heightUnit, isForeign);
         warnOfScale();
+        warnOfArea();
         return {};
     }
 
@@ -223,6 +225,19 @@ private:
             fmt::format("EPSG:{} (Mercator) shows lengths {:.3f} times, areas and volumes {:.2f} times as large as "
                         "they are at this place; --crs EPSG:{} gives true sizes",
                         model_.crs.epsg, scale.factor, scale.factor * scale.factor, scale.localCode),
+            given_.place);
+    }
+
+    void warnOfArea() {
+        if (box_.isEmpty()) return;
+        const Vec3d center = box_.center();
+        for (const Vec3d place : {center, box_.min, box_.max})
+            if (crs::isInAreaOfUse(model_.crs.epsg, place).value_or(true)) return;
+        diagnostics_.add(
+            Severity::Warning, Code::OutsideArea,
+            fmt::format("the model lies at ({:.0f}, {:.0f}), outside of the area in which EPSG:{} is used: "
+                        "the name of the CRS or the coordinates are wrong, and maps show another place",
+                        center.x, center.y, model_.crs.epsg),
             given_.place);
     }
 

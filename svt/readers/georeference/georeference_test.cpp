@@ -314,6 +314,19 @@ TEST(Georeference, WebMercatorIsAWarningWithTheScale) {
     EXPECT_EQ(place(munich, "EPSG:25832").diagnostics.count(Code::MapScale), 0u);
 }
 
+TEST(Georeference, APlaceOutsideOfTheAreaOfTheCrsIsAWarning) {
+    const std::vector<Vec3d> local{{10, 20, 0}, {20, 20, 0}, {10, 30, 9}},
+        amsterdam{{121000, 487000, 0}, {121010, 487000, 0}, {121000, 487010, 9}};
+    ASSERT_EQ(place(local, "EPSG:25832").diagnostics.count(Code::OutsideArea), 1u);
+    EXPECT_NE(place(local, "EPSG:25832").findings().find("the model lies at (15, 25), outside of the area"),
+              std::string::npos);
+    EXPECT_EQ(place(amsterdam, "EPSG:25832").diagnostics.count(Code::OutsideArea), 1u);
+    EXPECT_EQ(place(amsterdam, "EPSG:7415").diagnostics.count(Code::OutsideArea), 0u);
+    EXPECT_EQ(place(local, "").diagnostics.count(Code::OutsideArea), 0u);
+    EXPECT_EQ(place(local, "EPSG:999998").diagnostics.count(Code::OutsideArea), 0u);
+    EXPECT_EQ(place(kMunich, "EPSG:4258").diagnostics.count(Code::OutsideArea), 0u) << "after the projection";
+}
+
 TEST(Georeference, TheUnitIsThatOfTheUserOrOfTheFileOrPlausible) {
     const auto rooms = [](double unit) {
         model::BuildingModel model;

@@ -313,6 +313,20 @@ TEST(IfcReader, RigidOperationsAndTables) {
     EXPECT_EQ(attribute(wall, "Set.Sound"), "125.: low, 250.: high");
 }
 
+TEST(IfcReader, RigidOperationsInAnglesAreAWarning) {
+    Diagnostics findings;
+    const auto model = readText(ifcFile(std::string("#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n"
+                                                    "#50=IFCRIGIDOPERATION(#20,#51,IFCPLANEANGLEMEASURE(11.5),"
+                                                    "IFCPLANEANGLEMEASURE(48.1),110.);\n"
+                                                    "#51=IFCPROJECTEDCRS('EPSG:25832',$,$,$,$,$,$);\n") +
+                                            kBox,
+                                        "#100", "IFC4X3_ADD2"),
+                                &findings);
+    ASSERT_TRUE(model) << model.error().message();
+    EXPECT_EQ(model->crs.epsg, 0);
+    ASSERT_EQ(findings.count(Code::BadValue), 1u);
+}
+
 TEST(IfcReader, DoorsKnowWhatTheyFill) {
     const auto model = readText(ifcFile(std::string("#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n"
                                                     "#110=IFCDOOR('door',$,$,$,$,#15,#101,$,$,$);\n"

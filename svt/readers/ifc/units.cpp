@@ -96,7 +96,7 @@ std::string differenceOf(const MapPlace& a, const MapPlace& b) {
 }
 
 // The conversion of the project to a map.
-MapPlace readConversion(const IfcFile& file) {
+MapPlace readConversion(const IfcFile& file, const Place& where, Diagnostics& diagnostics) {
     MapPlace place;
     RecordIndex record = 0;
     while (record < file.step().records().size() && !isMapConversion(file.entityOf(record))) ++record;
@@ -109,8 +109,14 @@ MapPlace readConversion(const IfcFile& file) {
     const bool isShift = file.entityOf(record) == Entity::RigidOperation;
     // The coordinates of a shift may be angles, which give no place in metres.
     if (isShift && (conversion[at::RigidOperation::FirstCoordinate].typeName().ends_with("ANGLEMEASURE") ||
-                    conversion[at::RigidOperation::SecondCoordinate].typeName().ends_with("ANGLEMEASURE")))
+                    conversion[at::RigidOperation::SecondCoordinate].typeName().ends_with("ANGLEMEASURE"))) {
+        diagnostics.add(
+            Severity::Warning, Code::BadValue,
+            "IfcRigidOperation gives the place on the map as angles, which is not supported; the model keeps "
+            "the coordinates of its project",
+            where);
         return place;
+    }
     place.isGiven = true;
     place.crs = crs[at::ProjectedCRS::Name].string().value_or("");
     const auto number = [&](AttributePosition attribute, double otherwise) {
@@ -312,7 +318,7 @@ Units readUnits(const IfcFile& file, RecordIndex project, const Place& place, Di
 }
 
 MapPlace readMapPlace(const IfcFile& file, RecordIndex project, const Place& where, Diagnostics& diagnostics) {
-    MapPlace place = readConversion(file);
+    MapPlace place = readConversion(file, where, diagnostics);
     MapPlace ofSets = readMapSets(file, where, diagnostics);
     if (!place.isGiven) {
         place = std::move(ofSets);

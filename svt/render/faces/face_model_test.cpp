@@ -318,6 +318,93 @@ TEST(FaceTree, RaysThroughCornersAndEdgesEnterAClosedMeshAsOftenAsTheyLeaveIt) {
     EXPECT_GT(met, 3000u);
 }
 
+// Boxes along the axes, which some rays see edge-on.
+FaceTree boxesAlongAxes(std::vector<Vec3d>& points) {
+    std::vector<FaceTriangle> triangles;
+    constexpr std::uint32_t kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                            {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (const auto& [low, high] :
+         {std::pair(Vec3d{10, 12, 8}, Vec3d{50, 16, 40}), std::pair(Vec3d{10, 16, 8}, Vec3d{14, 48, 40}),
+          std::pair(Vec3d{8, 10, 4}, Vec3d{52, 50, 8}), std::pair(Vec3d{20, 20, 8}, Vec3d{32, 31, 30})}) {
+        const auto first = static_cast<std::uint32_t>(points.size());
+        for (int corner = 0; corner < 8; ++corner)
+            points.push_back({(corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+                              (corner & 4) != 0 ? high.z : low.z});
+        for (const auto& face : kFaces) {
+            triangles.push_back({{first + face[0], first + face[1], first + face[2]}, 0});
+            triangles.push_back({{first + face[0], first + face[2], first + face[3]}, 0});
+        }
+    }
+    return {points, triangles};
+}
+
+// The list of a beam gives the crossings of the tree, bit for bit. Returns the sizes of all lists together.
+std::size_t expectSameCrossings(const FaceTree& tree, const Camera& camera, std::size_t& crossings) {
+    const volume::Grid grid = emptyVolume({64, 64, 64}, {1, 1, 1}, {0.5, 0.5, 0.5}).grid;
+    FrameSpec spec = frontFrame(64, 48, {32, 32, 32}, 80, stylesOf({kRed}));
+    spec.camera = camera;
+    const CameraRays rays(spec, grid);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> within(0, 1);
+    std::size_t inLists = 0;
+    for (double left = -1; left < 1; left += 0.125)
+        for (double bottom = -1; bottom < 1; bottom += 0.25) {
+            std::vector<BeamTriangle> list;
+            EXPECT_TRUE(tree.collect(FaceBeam(rays, left, left + 0.125, bottom, bottom + 0.25), 100000, list));
+            inLists += list.size();
+            for (int n = 0; n < 12; ++n) {
+                const double u = n < 4 ? left + 0.125 * (n & 1) : left + 0.125 * within(random),
+                             v = n < 4 ? bottom + 0.125 * (n & 2) : bottom + 0.25 * within(random);
+                const VoxelRay ray = rays.at(u, v).voxelRay;
+                const BeamPlace place{static_cast<float>((u - left) / 0.0625 - 1),
+                                      static_cast<float>((v - bottom) / 0.125 - 1)};
+                std::vector<FaceCrossing> all, ofList;
+                tree.findAll(ray, 1e9, all);
+                for (const BeamTriangle& triangle : list) {
+                    FaceCrossing crossing;
+                    if (!tree.cross(triangle, place, ray, RayAcross(ray), crossing)) continue;
+                    EXPECT_GE(crossing.t, triangle.from);
+                    ofList.push_back(crossing);
+                }
+                for (auto* found : {&all, &ofList})
+                    std::ranges::sort(*found, [](const auto& a, const auto& b) { return a.isBefore(b); });
+                EXPECT_EQ(all.size(), ofList.size()) << u << ' ' << v;
+                crossings += all.size();
+                for (std::size_t c = 0; c < std::min(all.size(), ofList.size()); ++c) {
+                    EXPECT_EQ(all[c].t, ofList[c].t);
+                    EXPECT_EQ(all[c].triangle, ofList[c].triangle);
+                    EXPECT_EQ(all[c].isEntry, ofList[c].isEntry);
+                }
+            }
+        }
+    return inLists;
+}
+
+TEST(FaceTree, RaysOfABeamFindTheSameCrossingsInItsList) {
+    std::vector<Vec3d> points, corners;
+    const FaceTree curved = ball(64, points), straight = boxesAlongAxes(corners);
+    std::size_t crossings = 0, inLists = 0, cameras = 0;
+    // From outside, from inside, in the plane of faces, along an axis.
+    for (const Vec3d eye :
+         {Vec3d{-40, -70, 90}, Vec3d{30, 35, 28}, Vec3d{32, 32, 61}, Vec3d{33, -70, 30}, Vec3d{10, -20, 8}})
+        for (const auto projection : {Camera::Projection::Perspective, Camera::Projection::Orthographic}) {
+            Camera camera = frontFrame(64, 48, {32, 32, 32}, 80, stylesOf({kRed})).camera;
+            camera.projection = projection;
+            camera.eye = eye;
+            camera.target = eye.x == 10 ? Vec3d{10, 60, 20} : Vec3d{33, 31, 30};
+            inLists += expectSameCrossings(curved, camera, crossings);
+            static_cast<void>(expectSameCrossings(straight, camera, crossings));
+            ++cameras;
+        }
+    EXPECT_GT(crossings, 10000u);
+    EXPECT_LT(inLists, cameras * 128 * 200) << "of 1840 triangles for each of 128 beams";
+    // A limit of the list.
+    const volume::Grid grid = emptyVolume({64, 64, 64}, {1, 1, 1}, {0.5, 0.5, 0.5}).grid;
+    const FrameSpec spec = frontFrame(8, 8, {32, 32, 32}, 80, stylesOf({kRed}));
+    std::vector<BeamTriangle> list;
+    EXPECT_FALSE(curved.collect(FaceBeam(CameraRays(spec, grid), -1, 1, -1, 1), 100, list));
+}
+
 TEST(FaceTree, FindsAllCrossingsInOrder) {
     // More crossings than a batch holds: squares one behind the other, two of them in one place.
     std::vector<Vec3d> points;

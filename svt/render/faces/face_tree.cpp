@@ -13,11 +13,14 @@ constexpr int kMaxDepth = 48;           // of the tree; deeper parts become one 
 constexpr double kPadding = 1e-5;       // voxels around a box, far above rounding
 constexpr std::size_t kSplitBins = 16;  // places at which a box may be split
 
+// A float beyond `value`, by more than its rounding.
 float below(double value) noexcept {
-    return std::nextafter(static_cast<float>(value - kPadding), -std::numeric_limits<float>::infinity());
+    const double padded = value - kPadding;
+    return static_cast<float>(padded - std::abs(padded) * std::numeric_limits<float>::epsilon());
 }
 float above(double value) noexcept {
-    return std::nextafter(static_cast<float>(value + kPadding), std::numeric_limits<float>::infinity());
+    const double padded = value + kPadding;
+    return static_cast<float>(padded + std::abs(padded) * std::numeric_limits<float>::epsilon());
 }
 
 // The bounds of triangles while the tree is made.
@@ -38,6 +41,15 @@ struct FaceBounds {
         return size.x >= 0 ? size.x * size.y + size.y * size.z + size.z * size.x : 0;
     }
 };
+
+// Where a ray crosses the plane of a triangle. Returns false if they are so parallel that rounding may move the crossing
+// by more than the padding of boxes.
+bool crossPlane(Vec3d corner, Vec3d normal, const VoxelRay& ray, double squaredLength, double& t) noexcept {
+    constexpr double kSteep = 1e-8;
+    const double facing = dot(normal, ray.direction);
+    t = dot(normal, corner - ray.origin) / facing;
+    return facing * facing > kSteep * dot(normal, normal) * squaredLength;
+}
 
 }  // namespace
 
@@ -123,11 +135,10 @@ std::size_t FaceTree::splitPlace(std::size_t begin, std::size_t end) {
     return static_cast<std::size_t>(middle - triangles_.begin());
 }
 
-FaceTree::Span FaceTree::spanOf(const std::array<float, 3>& min, const std::array<float, 3>& max,
-                                const VoxelRay& ray) noexcept {
+FaceTree::Span FaceTree::spanOf(const Box& box, const VoxelRay& ray) noexcept {
     Span span{-kInfinite, kInfinite};
     forEachAxis([&](auto axis) {
-        const double low = static_cast<double>(min[axis]), high = static_cast<double>(max[axis]);
+        const double low = static_cast<double>(box.min[axis]), high = static_cast<double>(box.max[axis]);
         if (ray.step[axis] == 0) {
             if (ray.origin[axis] < low || ray.origin[axis] > high) span.to = -kInfinite;
             return;
@@ -140,7 +151,7 @@ FaceTree::Span FaceTree::spanOf(const std::array<float, 3>& min, const std::arra
     return span;
 }
 
-FaceTree::Across::Across(const VoxelRay& ray) noexcept {
+RayAcross::RayAcross(const VoxelRay& ray) noexcept {
     const Vec3d d = ray.direction;
     along = std::abs(d.x) >= std::abs(d.y) && std::abs(d.x) >= std::abs(d.z) ? 0
             : std::abs(d.y) >= std::abs(d.z)                                 ? 1
@@ -149,10 +160,11 @@ FaceTree::Across::Across(const VoxelRay& ray) noexcept {
     y = (along + 2) % 3;
     slopeX = d[x] / d[along];
     slopeY = d[y] / d[along];
+    squaredLength = dot(d, d);
     isBackwards = d[along] < 0;
 }
 
-bool FaceTree::cross(std::uint32_t number, const VoxelRay& ray, const Across& across,
+bool FaceTree::cross(std::uint32_t number, const VoxelRay& ray, const RayAcross& across,
                      FaceCrossing& crossing) const noexcept {
     const auto& corners = triangles_[number].corners;
     const Vec3d a = points_[corners[0]] - ray.origin, b = points_[corners[1]] - ray.origin,
@@ -172,29 +184,45 @@ bool FaceTree::cross(std::uint32_t number, const VoxelRay& ray, const Across& ac
     const Place placeA = placeOf(a), placeB = placeOf(b), placeC = placeOf(c);
     const bool isPositive = isLeft(placeA, placeB);
     if (isLeft(placeB, placeC) != isPositive || isLeft(placeC, placeA) != isPositive) return false;
-    const Vec3d normal = svt::cross(b - a, c - a);
-    const double facing = dot(normal, ray.direction);
-    std::array<float, 3> min, max;
+    crossing.triangle = number;
+    crossing.isEntry = isPositive == across.isBackwards;
+    if (crossPlane(points_[corners[0]], normal(number), ray, across.squaredLength, crossing.t)) return true;
+    // In the box: no box of the tree excludes the crossing then.
+    const Span span = spanOf(boxOf(number), ray);
+    if (!(span.from <= span.to)) return false;
+    crossing.t = std::isfinite(crossing.t) ? std::clamp(crossing.t, span.from, span.to) : span.from;
+    return true;
+}
+
+bool FaceTree::cross(const BeamTriangle& triangle, BeamPlace place, const VoxelRay& ray, const RayAcross& across,
+                     FaceCrossing& crossing) const noexcept {
+    const float inside = triangle.insideAt(place);
+    if (inside < -BeamTriangle::kMargin) return false;
+    if (!(inside > BeamTriangle::kMargin) ||
+        !crossPlane(triangle.corner, triangle.normal, ray, across.squaredLength, crossing.t))
+        return cross(triangle.number, ray, across, crossing);
+    crossing.triangle = triangle.number;
+    crossing.isEntry = dot(triangle.normal, ray.direction) < 0;
+    return true;
+}
+
+FaceTree::Box FaceTree::boxOf(std::uint32_t triangle) const noexcept {
+    const auto& corners = triangles_[triangle].corners;
+    Box box;
     for (int axis = 0; axis < 3; ++axis) {
         const auto n = static_cast<std::size_t>(axis);
         const auto [low, high] =
             std::minmax({points_[corners[0]][axis], points_[corners[1]][axis], points_[corners[2]][axis]});
-        min[n] = below(low);
-        max[n] = above(high);
+        box.min[n] = below(low);
+        box.max[n] = above(high);
     }
-    // In the box, also where the ray is nearly parallel: no box of the tree excludes the crossing then.
-    const Span span = spanOf(min, max, ray);
-    if (!(span.from <= span.to)) return false;
-    const double t = facing != 0 ? dot(normal, a) / facing : span.from;
-    crossing = {std::isfinite(t) ? std::clamp(t, span.from, span.to) : span.from, number,
-                isPositive == across.isBackwards};
-    return true;
+    return box;
 }
 
 template <class Visit>
 void FaceTree::traverse(const VoxelRay& ray, double from, const double& to, const Visit& visit) const {
     if (nodes_.empty()) return;
-    const Across across(ray);
+    const RayAcross across(ray);
     struct Open {
         std::uint32_t node;
         double from;
@@ -202,7 +230,7 @@ void FaceTree::traverse(const VoxelRay& ray, double from, const double& to, cons
     std::array<Open, kMaxDepth + 2> stack;
     std::size_t open = 0;
     const auto openOf = [&](std::uint32_t node) -> Open {
-        const Span span = spanOf(nodes_[node].min, nodes_[node].max, ray);
+        const Span span = spanOf(nodes_[node], ray);
         const bool isMissed = !(span.from <= span.to) || span.to < from || span.from > to;
         return {node, isMissed ? kInfinite : span.from};
     };
@@ -241,6 +269,38 @@ std::size_t FaceTree::findNext(const VoxelRay& ray, const FaceCrossing& last, do
 
 void FaceTree::findAll(const VoxelRay& ray, double to, std::vector<FaceCrossing>& found) const {
     traverse(ray, -kInfinite, to, [&](const FaceCrossing& crossing) { found.push_back(crossing); });
+}
+
+bool FaceTree::collect(const FaceBeam& beam, std::size_t most, std::vector<BeamTriangle>& found) const {
+    found.clear();
+    if (nodes_.empty()) return true;
+    const auto at = [](const std::array<float, 3>& p) { return Vec3d{double(p[0]), double(p[1]), double(p[2])}; };
+    std::array<std::uint32_t, kMaxDepth + 2> stack{};
+    std::size_t open = 1;
+    while (open > 0) {
+        const Node& node = nodes_[stack[--open]];
+        if (!beam.mayMeet(at(node.min), at(node.max))) continue;
+        if (node.count == 0) {
+            stack[open++] = node.first + 1;
+            stack[open++] = node.first;
+            continue;
+        }
+        for (std::uint32_t n = node.first; n < node.first + node.count; ++n) {
+            const auto& corners = triangles_[n].corners;
+            BeamTriangle triangle;
+            triangle.number = n;
+            if (!beam.findEdges(points_[corners[0]], points_[corners[1]], points_[corners[2]], triangle)) continue;
+            const Box box = boxOf(n);
+            if (!beam.mayMeet(at(box.min), at(box.max))) continue;
+            if (found.size() == most) return false;
+            triangle.from = beam.depthOf(at(box.min), at(box.max));
+            triangle.corner = points_[corners[0]];
+            triangle.normal = normal(n);
+            found.push_back(triangle);
+        }
+    }
+    std::ranges::sort(found, {}, &BeamTriangle::from);
+    return true;
 }
 
 Vec3d FaceTree::normal(std::uint32_t number) const noexcept {

@@ -8,6 +8,7 @@
 /// Edelsbrunner & Mücke 1990). So a ray crosses a closed mesh as often inwards as outwards.
 
 #include <svt/core/vec.hpp>
+#include <svt/render/faces/face_beam.hpp>
 #include <svt/render/voxel_ray.hpp>
 
 #include <array>
@@ -36,6 +37,15 @@ struct FaceCrossing {
     }
 };
 
+/// The plane across a ray: the axis that it follows most, and its slopes along the other two.
+struct RayAcross {
+    int x, y, along;
+    double slopeX, slopeY;
+    double squaredLength;  ///< of the direction
+    bool isBackwards;
+    explicit RayAcross(const VoxelRay& ray) noexcept;
+};
+
 class FaceTree {
 public:
     static constexpr std::size_t kBatch = 12;
@@ -52,38 +62,41 @@ public:
                                        Batch& batch) const;
     /// Appends all crossings up to t = `to`, in any order.
     void findAll(const VoxelRay& ray, double to, std::vector<FaceCrossing>& found) const;
+
+    /// Finds the triangles that rays of a beam may cross, by increasing BeamTriangle::from.
+    /// \return false, and an incomplete list, if there are more than `most`
+    [[nodiscard]] bool collect(const FaceBeam& beam, std::size_t most, std::vector<BeamTriangle>& found) const;
+    /// Tests a triangle of a beam that contains the ray.
+    /// \return whether the ray crosses it: the same crossings as those of findAll()
+    [[nodiscard]] bool cross(const BeamTriangle& triangle, BeamPlace place, const VoxelRay& ray,
+                             const RayAcross& across, FaceCrossing& crossing) const noexcept;
     [[nodiscard]] const FaceTriangle& triangle(std::uint32_t number) const noexcept { return triangles_[number]; }
     /// Normal of a triangle, outwards, voxel space, not of unit length.
     [[nodiscard]] Vec3d normal(std::uint32_t number) const noexcept;
     [[nodiscard]] std::size_t sizeBytes() const noexcept;
 
 private:
-    struct Node {
+    struct Box {
         std::array<float, 3> min{}, max{};
+    };
+    struct Node : Box {
         std::uint32_t first = 0;  // leaf: its first triangle; else: its first child, followed by the second
         std::uint32_t count = 0;  // triangles of a leaf; 0: two children
     };
     struct Span {
         double from, to;
     };
-    [[nodiscard]] static Span spanOf(const std::array<float, 3>& min, const std::array<float, 3>& max,
-                                     const VoxelRay& ray) noexcept;
+    [[nodiscard]] static Span spanOf(const Box& box, const VoxelRay& ray) noexcept;
     [[nodiscard]] Node boundsOf(std::size_t begin, std::size_t end) const noexcept;
     void split(std::size_t node, std::size_t begin, std::size_t end, int depth);
     [[nodiscard]] std::size_t splitPlace(std::size_t begin, std::size_t end);
-    // The plane across the ray: the axis that it follows most, and its slopes along the other two.
-    struct Across {
-        int x, y, along;
-        double slopeX, slopeY;
-        bool isBackwards;
-        explicit Across(const VoxelRay& ray) noexcept;
-    };
-    [[nodiscard]] bool cross(std::uint32_t number, const VoxelRay& ray, const Across& across,
+    [[nodiscard]] bool cross(std::uint32_t number, const VoxelRay& ray, const RayAcross& across,
                              FaceCrossing& crossing) const noexcept;
 
     // Calls visit(crossing) for the crossings from about `from` up to `to`, which it may lower; near boxes first.
     template <class Visit>
     void traverse(const VoxelRay& ray, double from, const double& to, const Visit& visit) const;
+    [[nodiscard]] Box boxOf(std::uint32_t triangle) const noexcept;
 
     std::vector<Vec3d> points_;
     std::vector<FaceTriangle> triangles_;

@@ -4,8 +4,11 @@
 #include <svt/render/walk/run_walk.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,6 +27,7 @@ using Data = FaceModel::Data;
 // The objects that a point is inside of, by winding numbers.
 class InsideObjects {
 public:
+    void clear() noexcept { windings_.clear(); }
     void cross(std::uint32_t object, int step) {
         for (auto& [known, winding] : windings_)
             if (known == object) {
@@ -44,13 +48,23 @@ private:
     std::vector<std::pair<std::uint32_t, int>> windings_;
 };
 
-// The crossings of a ray after a place, one after the other.
-class CrossingCursor {
+// The crossings of a ray up to an end, one after the other.
+class Crossings {
 public:
-    CrossingCursor(const FaceTree& tree, const VoxelRay& ray, double from, double to)
-        : tree_(tree), ray_(ray), to_(to), last_{from, std::numeric_limits<std::uint32_t>::max(), false} {}
-    // The next crossing up to the end; null if there is none.
-    [[nodiscard]] const FaceCrossing* next() {
+    Crossings() = default;
+    Crossings(const Crossings&) = delete;
+    Crossings& operator=(const Crossings&) = delete;
+    virtual ~Crossings() = default;
+    // The next crossing; null if there is none.
+    [[nodiscard]] virtual const FaceCrossing* next() = 0;
+    virtual void advance() noexcept = 0;
+};
+
+// Sought in the tree, batch by batch.
+class TreeCrossings final : public Crossings {
+public:
+    TreeCrossings(const FaceTree& tree, const VoxelRay& ray, double to) : tree_(tree), ray_(ray), to_(to) {}
+    [[nodiscard]] const FaceCrossing* next() override {
         if (at_ == count_ && !isLast_) {
             count_ = tree_.findNext(ray_, last_, to_, most_, batch_);
             at_ = 0;
@@ -60,7 +74,7 @@ public:
         }
         return at_ == count_ ? nullptr : &batch_[at_];
     }
-    void advance() noexcept { ++at_; }
+    void advance() noexcept override { ++at_; }
 
 private:
     const FaceTree& tree_;
@@ -71,6 +85,38 @@ private:
     std::size_t most_ = 4;  // few at first: most rays end at the first face
     std::size_t at_ = 0, count_ = 0;
     bool isLast_ = false;
+};
+
+// By the triangles of a beam. A crossing is known to be the next one when all triangles left begin behind it.
+class BeamCrossings final : public Crossings {
+public:
+    BeamCrossings(const FaceTree& tree, std::span<const BeamTriangle> triangles, BeamPlace place, const VoxelRay& ray,
+                  std::vector<FaceCrossing>& pending)
+        : tree_(tree), triangles_(triangles), place_(place), ray_(ray), across_(ray), pending_(pending) {
+        pending_.clear();
+    }
+    [[nodiscard]] const FaceCrossing* next() override {
+        FaceCrossing crossing;
+        for (; !triangles_.empty(); triangles_ = triangles_.subspan(1)) {
+            const BeamTriangle& triangle = triangles_.front();
+            if (!pending_.empty() && pending_.back().t < triangle.from) break;
+            if (!tree_.cross(triangle, place_, ray_, across_, crossing)) continue;
+            // The first one is the last of the list.
+            const auto at = std::ranges::find_if(pending_.rbegin(), pending_.rend(),
+                                                 [&](const FaceCrossing& other) { return crossing.isBefore(other); });
+            pending_.insert(at.base(), crossing);
+        }
+        return pending_.empty() ? nullptr : &pending_.back();
+    }
+    void advance() noexcept override { pending_.pop_back(); }
+
+private:
+    const FaceTree& tree_;
+    std::span<const BeamTriangle> triangles_;
+    BeamPlace place_;
+    const VoxelRay& ray_;
+    RayAcross across_;
+    std::vector<FaceCrossing>& pending_;  // found, not passed; the first one is the last of the list
 };
 
 // The owner of a point of the ray.
@@ -88,6 +134,7 @@ public:
         RunStart start;
     };
     explicit VoxelOwners(const Data& data) : data_(data) {}
+    void clear() noexcept { parts_.clear(); }
     bool enter(volume::Scalar scalar, double from, const RunStart& start) {
         const std::uint32_t object =
             scalar < data_.objectOfVoxels.size() ? data_.objectOfVoxels[scalar] : Data::kNobody;
@@ -103,11 +150,18 @@ private:
     std::vector<Part> parts_;
 };
 
+// Lists of a walk, kept from ray to ray.
+struct WalkLists {
+    InsideObjects inside;
+    std::vector<FaceCrossing> here;  // crossings in one place
+};
+
 // A walk along one interval of a ray.
 class FaceWalk {
 public:
-    FaceWalk(const Data& data, const volume::BrickVolume& bricks, const VoxelRay& ray, double metresPerT, double from,
-             double to, RunVisitor& visitor)
+    // \param crossings  of the ray, also behind the eye
+    FaceWalk(const Data& data, Crossings& crossings, const volume::BrickVolume& bricks, const VoxelRay& ray,
+             double metresPerT, double from, double to, RunVisitor& visitor, WalkLists& lists)
         : data_(data),
           bricks_(bricks),
           dimension_(bricks.dimension()),
@@ -115,16 +169,23 @@ public:
           samePlace_(kSamePlace / metresPerT),
           to_(to),
           visitor_(visitor),
-          crossings_(data.tree, ray, from, to),
-          start_(from) {}
+          crossings_(crossings),
+          inside_(lists.inside),
+          here_(lists.here),
+          start_(from) {
+        inside_.clear();
+        here_.clear();
+    }
 
     void walk(std::span<const VoxelOwners::Part> voxels) {
         const double from = start_;
         voxels_ = voxels;
         // The whole ray up to the start, also behind the eye: outside of the model it is inside of no object.
-        data_.tree.findAll(ray_, from, here_);
-        for (const FaceCrossing& crossing : here_) take(crossing);
-        here_.clear();
+        for (const FaceCrossing* crossing = crossings_.next(); crossing != nullptr && crossing->t <= from;
+             crossing = crossings_.next()) {
+            take(*crossing);
+            crossings_.advance();
+        }
         RunStart start{ray_.voxelAt(from, dimension_)};
         if (!voxels_.empty() && voxels_.front().from <= from) {
             voxelOwner_ = voxels_.front().owner;
@@ -254,13 +315,74 @@ private:
     const VoxelRay& ray_;
     double samePlace_, to_;  // units of the ray's parameter
     RunVisitor& visitor_;
-    CrossingCursor crossings_;
+    Crossings& crossings_;
     std::span<const VoxelOwners::Part> voxels_;
-    InsideObjects inside_;
-    std::vector<FaceCrossing> here_;  // crossings in one place
+    InsideObjects& inside_;
+    std::vector<FaceCrossing>& here_;
     Owner voxelOwner_, owner_;
     double start_;
     bool isAfterSheet_ = false;  // the sheet's run has ended, the next one has not begun
+};
+
+// Walks rays; those of one cell of the picture share the list of triangles that they may cross.
+class FaceWalker final : public RunWalker {
+public:
+    FaceWalker(const Data& data, const volume::BrickVolume& bricks, const CameraRays& rays, PictureSize size)
+        : data_(data), bricks_(bricks), rays_(rays), size_(size), voxels_(data) {}
+
+    void walk(double u, double v, const CameraRay& ray, double from, double to, RunVisitor& visitor) override {
+        voxels_.clear();
+        if (data_.hasVoxels) walkRuns(bricks_, ray.voxelRay, from, to, voxels_);
+        const double column = (u + 1) / 2 * size_.width / kCellPixels, row = (v + 1) / 2 * size_.height / kCellPixels;
+        const Cell* cell = size_.width > 0 && size_.height > 0 ? &cellAt(std::floor(column), std::floor(row)) : nullptr;
+        const auto walkBy = [&](Crossings& crossings) {
+            FaceWalk(data_, crossings, bricks_, ray.voxelRay, ray.metresPerT, from, to, visitor, lists_)
+                .walk(voxels_.parts());
+        };
+        if (cell == nullptr || !cell->isComplete) {
+            TreeCrossings crossings(data_.tree, ray.voxelRay, to);
+            return walkBy(crossings);
+        }
+        const BeamPlace place{static_cast<float>(2 * (column - cell->column) - 1),
+                              static_cast<float>(2 * (row - cell->row) - 1)};
+        BeamCrossings crossings(data_.tree, cell->triangles, place, ray.voxelRay, pending_);
+        walkBy(crossings);
+    }
+
+private:
+    static constexpr double kCellPixels = 8;
+    static constexpr int kCellsKept = 8;              // along each axis: those of a tile and of its margin
+    static constexpr std::size_t kMostInCell = 1024;  // more triangles are sought in the tree
+
+    struct Cell {
+        double column = std::numeric_limits<double>::quiet_NaN(), row = 0;
+        bool isComplete = false;
+        std::vector<BeamTriangle> triangles;
+    };
+
+    const Cell& cellAt(double column, double row) {
+        const auto slotOf = [](double place) {
+            return static_cast<std::size_t>(static_cast<std::int64_t>(place) & (kCellsKept - 1));
+        };
+        Cell& cell = cells_[slotOf(column) + kCellsKept * slotOf(row)];
+        if (cell.column == column && cell.row == row) return cell;
+        const auto at = [](double place, int count) { return 2 * place * kCellPixels / count - 1; };
+        const FaceBeam beam(rays_, at(column, size_.width), at(column + 1, size_.width), at(row, size_.height),
+                            at(row + 1, size_.height));
+        cell.isComplete = data_.tree.collect(beam, kMostInCell, cell.triangles);
+        cell.column = column;
+        cell.row = row;
+        return cell;
+    }
+
+    const Data& data_;
+    const volume::BrickVolume& bricks_;
+    const CameraRays& rays_;
+    PictureSize size_;
+    VoxelOwners voxels_;
+    WalkLists lists_;
+    std::array<Cell, std::size_t{kCellsKept} * kCellsKept> cells_;
+    std::vector<FaceCrossing> pending_;  // of BeamCrossings
 };
 
 }  // namespace
@@ -269,7 +391,14 @@ void FaceModel::walk(const volume::BrickVolume& bricks, const VoxelRay& ray, dou
                      RunVisitor& visitor) const {
     VoxelOwners voxels(*data_);
     if (data_->hasVoxels) walkRuns(bricks, ray, from, to, voxels);
-    FaceWalk(*data_, bricks, ray, metresPerT, from, to, visitor).walk(voxels.parts());
+    WalkLists lists;
+    TreeCrossings crossings(data_->tree, ray, to);
+    FaceWalk(*data_, crossings, bricks, ray, metresPerT, from, to, visitor, lists).walk(voxels.parts());
+}
+
+std::unique_ptr<RunWalker> FaceModel::makeWalker(const volume::BrickVolume& bricks, const CameraRays& rays,
+                                                 PictureSize size) const {
+    return std::make_unique<FaceWalker>(*data_, bricks, rays, size);
 }
 
 std::unique_ptr<PointCaster> FaceModel::makeCaster(const PreparedFrame& frame) const { return makeSampleCaster(frame); }

@@ -187,7 +187,12 @@ private:
 SampleCaster::SampleCaster(const PreparedFrame& frame)
     : frame_(frame),
       finder_(frame.hasShapes ? std::make_unique<FragmentFinder>(frame) : nullptr),
-      fragments_(std::make_unique<Fragments>()) {}
+      fragments_(std::make_unique<Fragments>()) {
+    const PictureSize size = frame.isReference ? PictureSize{} : PictureSize{frame.spec.width, frame.spec.height};
+    for (const PreparedVolume& volume : frame.volumes)
+        walkers_.push_back(volume.source != nullptr ? volume.source->makeWalker(volume.bricks, volume.rays, size)
+                                                    : nullptr);
+}
 SampleCaster::~SampleCaster() = default;
 
 Sample SampleCaster::cast(double u, double v, bool withColor) {
@@ -211,9 +216,9 @@ Sample SampleCaster::cast(double u, double v, bool withColor) {
             interval.to = std::min(interval.to, end);
             if (!(interval.from < interval.to)) break;
             shader.beginInterval(interval);
-            if (volume.source != nullptr) {
+            if (walkers_[pass.volume] != nullptr) {
                 SourceShader runs(pass.table, shader);
-                volume.source->walk(volume.bricks, ray.voxelRay, ray.metresPerT, interval.from, interval.to, runs);
+                walkers_[pass.volume]->walk(u, v, ray, interval.from, interval.to, runs);
             } else if (frame_.isReference)
                 walkRunsReference(volume.bricks, ray.voxelRay, interval.from, interval.to, shader);
             else

@@ -7,6 +7,7 @@
 #include <svt/render/prepare/prepared_frame.hpp>
 
 #include <memory>
+#include <vector>
 
 namespace svt::render {
 
@@ -24,6 +25,7 @@ public:
 private:
     const PreparedFrame& frame_;
     NormalCache cache_;
+    std::vector<std::unique_ptr<RunWalker>> walkers_;  // by volume; null: by its bricks
     std::unique_ptr<FragmentFinder> finder_;
     std::unique_ptr<Fragments> fragments_;  // of the ray
 };

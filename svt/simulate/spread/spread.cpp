@@ -163,7 +163,6 @@ private:
         const std::size_t times = sensors_.head.times.size(), points = sensors_.head.points.size();
         result_.field.values.assign(times * nodes_, std::numeric_limits<float>::quiet_NaN());
         std::vector<double> weights(nodes_), sums(nodes_);
-        std::vector<char> hasValue(nodes_, 0);
         for (std::size_t t = 0; t < times; ++t) {
             std::fill(weights.begin(), weights.end(), 0);
             std::fill(sums.begin(), sums.end(), 0);
@@ -179,10 +178,14 @@ private:
             for (std::size_t n = 0; n < nodes_; ++n) {
                 if (!(weights[n] > 0)) continue;
                 result_.field.values[t * nodes_ + n] = static_cast<float>(sums[n] / weights[n]);
-                hasValue[n] = 1;
             }
         }
-        result_.nodes = static_cast<std::uint64_t>(std::count(hasValue.begin(), hasValue.end(), 1));
+        for (std::size_t n = 0; n < nodes_; ++n) {
+            bool hasValue = false;
+            for (std::size_t t = 0; t < times; ++t)
+                hasValue = hasValue || std::isfinite(result_.field.values[t * nodes_ + n]);
+            result_.nodes += hasValue;
+        }
     }
 
     void findDry() {

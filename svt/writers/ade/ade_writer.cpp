@@ -162,10 +162,40 @@ Result<ModelDocument> documentFor(const volume::SemanticVolume& volume, const Vo
     return document;
 }
 
+/// Refuses a model that lacks all features of the volume. Reports those that it lacks, because their targets lead
+/// nowhere.
+Result<void> checkFeatures(const volume::LabelTable& table, const ModelDocument& document,
+                           const VolumeWriteOptions& options) {
+    const std::vector<std::string_view> ids = document.ids();
+    std::size_t all = 0, missing = 0;
+    const volume::Label* first = nullptr;
+    for (const volume::Label& label : table.labels) {
+        ++all;
+        if (std::ranges::binary_search(ids, xmlAttribute(label.id))) continue;
+        ++missing;
+        if (first == nullptr) first = &label;
+    }
+    if (missing == 0) return {};
+    const Place place{options.cityGml.model.string(), 0, 0, {}};
+    if (missing == all && !ids.empty())
+        return Error(Code::BadArgument,
+                     fmt::format("the model lacks all {} features of the volume, such as '{}'; give the model from "
+                                 "which the volume was built, or leave --model out",
+                                 all, first->id),
+                     place);
+    if (options.diagnostics != nullptr)
+        options.diagnostics->add(Severity::Warning, Code::DanglingReference,
+                                 fmt::format("the model has no gml:id for {} of the {} features of the volume, such as "
+                                             "'{}'; their scalars refer to nothing",
+                                             missing, all, first->id),
+                                 place);
+    return {};
+}
+
 /// Beside the document it writes `<stem>.labels.nrrd`, or `<stem>_slices/0000.png` and so on.
 /// \return size of the document, bytes; or
 ///         - BadArgument    a rotated grid, which the extension cannot store; another version than the model's; a model
-///                          that already has a volume; too many voxels.
+///                          that already has a volume or lacks all features; too many voxels.
 ///         - UnknownFormat  the model is not CityGML in UTF-8.
 ///         - CannotOpen, CannotWrite, DiskFull, WouldDestroy, Cancelled
 Result<std::uint64_t> writeAde(const volume::SemanticVolume& volume, const std::filesystem::path& path,
@@ -183,6 +213,7 @@ Result<std::uint64_t> writeAde(const volume::SemanticVolume& volume, const std::
             "pixel, image or composed");
     if (options.texture == TextureKind::Pixel) SVT_DO(checkPixelCount(volume.grid.dimension(), options.maxVoxels));
     SVT_TRY(document, documentFor(volume, options));
+    if (!options.cityGml.model.empty()) SVT_DO(checkFeatures(volume.labels, *document, options));
     std::string beside;
     if (options.texture != TextureKind::Pixel) {
         SVT_TRY(written, writeBeside(volume, *bits, path, options));

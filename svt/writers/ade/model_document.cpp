@@ -97,6 +97,22 @@ ModelDocument ModelDocument::plain(const volume::SemanticVolume& volume, CityGml
     return document;
 }
 
+std::vector<std::string_view> ModelDocument::ids() const {
+    std::vector<std::string_view> ids;
+    if (!mapped_) return ids;
+    constexpr std::string_view kAttribute = ":id=";
+    const std::string_view text = mapped_->text();
+    for (std::size_t at = text.find(kAttribute); at != std::string_view::npos; at = text.find(kAttribute, at)) {
+        at += kAttribute.size();
+        const char quote = at < text.size() ? text[at] : '\0';
+        const std::size_t end = text.find(quote, std::min(at + 1, text.size()));
+        if (end == std::string_view::npos) break;
+        if (quote == '"' || quote == '\'') ids.push_back(text.substr(at + 1, end - at - 1));
+    }
+    std::ranges::sort(ids);
+    return ids;
+}
+
 Result<void> ModelDocument::writeBegin(AtomicFile& file) const {
     return mapped_ ? write(mapped_->text().substr(0, cut_), file) : file.write(begin_);
 }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace svt::writers {
 
@@ -27,6 +28,8 @@ public:
     [[nodiscard]] static ModelDocument plain(const volume::SemanticVolume& volume, CityGmlVersion version);
 
     [[nodiscard]] CityGmlVersion version() const noexcept { return version_; }
+    /// The values of all attributes gml:id of a model, as written, sorted; none for a plain document.
+    [[nodiscard]] std::vector<std::string_view> ids() const;
     [[nodiscard]] Result<void> writeBegin(AtomicFile& file) const;
     [[nodiscard]] Result<void> writeEnd(AtomicFile& file) const;
 

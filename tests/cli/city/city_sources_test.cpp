@@ -75,6 +75,23 @@ TEST_F(CitySources, AreAnErrorIfTooManyFeaturesWouldBeLeftOut) {
     EXPECT_EQ(allowed.exitCode, 0) << allowed.toString();
 }
 
+TEST_F(CitySources, AFileWhoseUnitIsInDoubtIsLeftOut) {
+    write("a.city.jsonl", boxesOf(kDutch, "a", 8, 121000, 487000));
+    write("b.city.jsonl", boxCity("", {{"b0", 0, 0, 9000}, {"b1", 40, 0, 9000}}));
+    const CommandResult planned = plan();
+    EXPECT_EQ(planned.exitCode, 0) << planned.toString();
+    EXPECT_NE(planned.out.find("8 features of 2 files"), std::string::npos) << planned.toString();
+    EXPECT_NE(planned.out.find(" 2 left out"), std::string::npos) << planned.toString();
+    EXPECT_NE(planned.err.find("E127 UnitInDoubt"), std::string::npos) << planned.toString();
+    EXPECT_NE(planned.err.find("b.city.jsonl: all 2 features of the file are left out: half of the buildings are 9000"),
+              std::string::npos)
+        << planned.toString();
+    std::filesystem::remove_all(folder / "town");
+    const CommandResult refused = plan({"--max-left-out", "10"});
+    EXPECT_EQ(refused.exitCode, 3) << refused.toString();
+    EXPECT_NE(refused.err.find("E612 ManySkipped: 2 of 10 features"), std::string::npos) << refused.toString();
+}
+
 TEST_F(CitySources, OneIdWithTwoContentsIsAnErrorOfCheck) {
     write("a.city.jsonl", boxesOf(kDutch, "x", 3, 121000, 487000));
     write("b.city.jsonl", boxesOf(kDutch, "x", 2, 121000, 487500));
