@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Fails if a source of the library, the programs or the bindings calls what depends on the locale of the process, maps a
-file that others may shorten, or makes an object per thread.
+file that others may shorten, makes an object per thread, or uses an algorithm that the tool chain of the page lacks.
 
     scripts/check_banned_calls.py [ROOT]
 
@@ -59,6 +59,8 @@ BANNED = [
         "pass the object on, or share it behind a mutex",
     ),
 ]
+# The algorithms std::ranges::NAME that the tool chain of the page has: those of this header.
+RANGES = "web/wasm/libcxx.hpp"
 # Who may map, and why.
 MAY_MAP = {
     "svt/core/file/file.cpp": "defines FileBytes::map()",
@@ -89,12 +91,25 @@ def findings_in(name: str, text: str) -> list[str]:
     return found
 
 
+def ranges_in(name: str, text: str, known: set[str]) -> list[str]:
+    code = without_comments(text)
+    return [
+        f"{name}:{code.count(chr(10), 0, match.start()) + 1}: '{match[0]}' is not in the library of the page; "
+        f"call the algorithm with two iterators, or add it to {RANGES}"
+        for match in re.finditer(r"\bstd::ranges::(\w+)", code)
+        if match[1] not in known
+    ]
+
+
 def findings(root: Path) -> list[str]:
     found = []
+    header = root / RANGES
+    known = set(re.findall(r"^\w+ (\w+)\(", header.read_text(encoding="utf-8"), re.M)) if header.exists() else set()
     for folder in FOLDERS:
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in ENDINGS and not path.stem.endswith("_test"):
-                found += findings_in(path.relative_to(root).as_posix(), path.read_text(encoding="utf-8"))
+                name, text = path.relative_to(root).as_posix(), path.read_text(encoding="utf-8")
+                found += findings_in(name, text) + ranges_in(name, text, known)
     return found
 
 

@@ -139,7 +139,7 @@ Result<TakeOff> measureTakeOff(const volume::SemanticVolume& volume, const TakeO
     if (takeOff.objects.empty())
         notes.emplace_back("no objects are measured; use --where with a query that selects objects");
     for (std::size_t k = 0; k < takeOff.keys.size() && !takeOff.objects.empty(); ++k)
-        if (std::ranges::all_of(takeOff.values, [&](const auto& values) { return values[k].empty(); }))
+        if (!std::ranges::any_of(takeOff.values, [&](const auto& values) { return !values[k].empty(); }))
             notes.push_back(noValueOfKey(takeOff.keys[k]));
     for (std::string& text : takeOffNotes(takeOff)) notes.push_back(std::move(text));
     return takeOff;

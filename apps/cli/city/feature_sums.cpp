@@ -172,7 +172,7 @@ Table FeatureSums::table() const {
 
 void FeatureSums::note() const {
     for (std::size_t k = 0; k < keys_.size(); ++k)
-        if (std::ranges::all_of(sums_, [&](const auto& sum) { return sum.first[k].empty(); }))
+        if (!std::ranges::any_of(sums_, [&](const auto& sum) { return !sum.first[k].empty(); }))
             cli::note(frontend::noValueOfKey(keys_[k]));
     if (inParts_ > 0)
         cli::note(

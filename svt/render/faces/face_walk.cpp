@@ -102,8 +102,8 @@ public:
             if (!pending_.empty() && pending_.back().t < triangle.from) break;
             if (!tree_.cross(triangle, place_, ray_, across_, crossing)) continue;
             // The first one is the last of the list.
-            const auto at = std::ranges::find_if(pending_.rbegin(), pending_.rend(),
-                                                 [&](const FaceCrossing& other) { return crossing.isBefore(other); });
+            const auto at = std::find_if(pending_.rbegin(), pending_.rend(),
+                                         [&](const FaceCrossing& other) { return crossing.isBefore(other); });
             pending_.insert(at.base(), crossing);
         }
         return pending_.empty() ? nullptr : &pending_.back();

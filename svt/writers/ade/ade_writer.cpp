@@ -171,7 +171,7 @@ Result<void> checkFeatures(const volume::LabelTable& table, const ModelDocument&
     const volume::Label* first = nullptr;
     for (const volume::Label& label : table.labels) {
         ++all;
-        if (std::ranges::binary_search(ids, xmlAttribute(label.id))) continue;
+        if (std::binary_search(ids.begin(), ids.end(), std::string_view(xmlAttribute(label.id)))) continue;
         ++missing;
         if (first == nullptr) first = &label;
     }
