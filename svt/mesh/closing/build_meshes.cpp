@@ -243,7 +243,6 @@ std::string joinedText(const ObjectMesh& mesh) {
 
 void report(const BuildingModel& model, const Shell& shell, const SharedVolume& shared, const ObjectMesh& mesh,
             const MeshOptions& options, Vec3d origin, Diagnostics& log) {
-    const Feature& feature = model.features[mesh.feature];
     const Place place = model.placeOf(mesh.feature);
     const std::string leaks = leakText(mesh, origin);
     if (shell.duplicateFaces != 0)
