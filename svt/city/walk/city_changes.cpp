@@ -158,14 +158,15 @@ private:
     // Tiles of one building. Ids are unique in a city.
     Result<void> joinMoved(Places& places) {
         std::vector<std::array<std::vector<std::string>, 2>> ids(changed_.size());
-        SVT_DO(forEach(changed_.size(), [&](std::size_t n) -> Result<void> {
+        const auto addIds = [&](std::size_t n) -> Result<void> {
             const TilePair& pair = changed_[n].second;
             for (const bool isNew : {false, true}) {
                 const IndexEntry* entry = isNew ? pair.is : pair.was;
                 if (entry != nullptr) SVT_DO(addRootIds(isNew ? is_ : was_, *entry, ids[n][isNew ? 1 : 0]));
             }
             return {};
-        }));
+        };
+        SVT_DO(forEach(changed_.size(), addIds));
         std::unordered_map<std::string, std::size_t> tileOf;  // of the old state
         for (std::size_t n = 0; n < ids.size(); ++n)
             for (std::string& id : ids[n][0]) tileOf.try_emplace(std::move(id), n);

@@ -155,8 +155,8 @@ private:
             Row row{patch.name, patch.label == kNoLabel ? "background" : patch.isAir ? "space" : "component",
                     label.id,   label.className,
                     label.name, patch.faces,
-                    patch.area};
-            row.push_back(surface.celsius ? Cell(*surface.celsius) : Cell());
+                    patch.area, Cell()};
+            if (surface.celsius) row.back() = *surface.celsius;
             csv += csvLine(row);
         }
         return folder_.write("patches.csv", csv);
