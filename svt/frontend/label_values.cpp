@@ -88,7 +88,7 @@ std::vector<std::string> valuesOfKey(const std::string& key, const volume::Label
 }
 
 std::string noValueOfKey(std::string_view key) {
-    return fmt::format("no feature of these sums has a value for '{}'; svt info lists the attributes", key);
+    return fmt::format("no feature of these sums has a value for '{}'; svt info --json lists the attributes", key);
 }
 
 }  // namespace svt::frontend

@@ -96,7 +96,7 @@ private:
         if (!first) return;  // reported for each feature
         isDecided_ = true;
         for (const Diagnostic& item : findings.items())
-            if (item.code == Code::AxisOrder || item.code == Code::MapScale)
+            if (item.code == Code::AxisOrder || item.code == Code::MapScale || item.code == Code::OutsideArea)
                 diagnostics_.add(item.severity, item.code, item.message, {path_.string(), 0, 0, {}});
         entry_.axisOrder = first->crs.axesSwapped ? -1 : 1;
         if (survey_.crs == 0) survey_.crs = first->crs.epsg;

@@ -267,10 +267,6 @@ std::size_t FaceTree::findNext(const VoxelRay& ray, const FaceCrossing& last, do
     return count;
 }
 
-void FaceTree::findAll(const VoxelRay& ray, double to, std::vector<FaceCrossing>& found) const {
-    traverse(ray, -kInfinite, to, [&](const FaceCrossing& crossing) { found.push_back(crossing); });
-}
-
 bool FaceTree::collect(const FaceBeam& beam, std::size_t most, std::vector<BeamTriangle>& found) const {
     found.clear();
     if (nodes_.empty()) return true;

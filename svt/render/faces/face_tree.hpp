@@ -60,14 +60,12 @@ public:
     /// \return their number; `most` if there may be more
     [[nodiscard]] std::size_t findNext(const VoxelRay& ray, const FaceCrossing& last, double to, std::size_t most,
                                        Batch& batch) const;
-    /// Appends all crossings up to t = `to`, in any order.
-    void findAll(const VoxelRay& ray, double to, std::vector<FaceCrossing>& found) const;
 
     /// Finds the triangles that rays of a beam may cross, by increasing BeamTriangle::from.
     /// \return false, and an incomplete list, if there are more than `most`
     [[nodiscard]] bool collect(const FaceBeam& beam, std::size_t most, std::vector<BeamTriangle>& found) const;
     /// Tests a triangle of a beam that contains the ray.
-    /// \return whether the ray crosses it: the same crossings as those of findAll()
+    /// \return whether the ray crosses it: the same crossings as those of findNext()
     [[nodiscard]] bool cross(const BeamTriangle& triangle, BeamPlace place, const VoxelRay& ray,
                              const RayAcross& across, FaceCrossing& crossing) const noexcept;
     [[nodiscard]] const FaceTriangle& triangle(std::uint32_t number) const noexcept { return triangles_[number]; }

@@ -91,8 +91,8 @@ private:
 class BeamCrossings final : public Crossings {
 public:
     BeamCrossings(const FaceTree& tree, std::span<const BeamTriangle> triangles, BeamPlace place, const VoxelRay& ray,
-                  std::vector<FaceCrossing>& pending)
-        : tree_(tree), triangles_(triangles), place_(place), ray_(ray), across_(ray), pending_(pending) {
+                  double to, std::vector<FaceCrossing>& pending)
+        : tree_(tree), triangles_(triangles), place_(place), ray_(ray), across_(ray), to_(to), pending_(pending) {
         pending_.clear();
     }
     [[nodiscard]] const FaceCrossing* next() override {
@@ -100,7 +100,7 @@ public:
         for (; !triangles_.empty(); triangles_ = triangles_.subspan(1)) {
             const BeamTriangle& triangle = triangles_.front();
             if (!pending_.empty() && pending_.back().t < triangle.from) break;
-            if (!tree_.cross(triangle, place_, ray_, across_, crossing)) continue;
+            if (!tree_.cross(triangle, place_, ray_, across_, crossing) || crossing.t > to_) continue;
             // The first one is the last of the list.
             const auto at = std::find_if(pending_.rbegin(), pending_.rend(),
                                          [&](const FaceCrossing& other) { return crossing.isBefore(other); });
@@ -116,6 +116,7 @@ private:
     BeamPlace place_;
     const VoxelRay& ray_;
     RayAcross across_;
+    double to_;
     std::vector<FaceCrossing>& pending_;  // found, not passed; the first one is the last of the list
 };
 
@@ -345,7 +346,7 @@ public:
         }
         const BeamPlace place{static_cast<float>(2 * (column - cell->column) - 1),
                               static_cast<float>(2 * (row - cell->row) - 1)};
-        BeamCrossings crossings(data_.tree, cell->triangles, place, ray.voxelRay, pending_);
+        BeamCrossings crossings(data_.tree, cell->triangles, place, ray.voxelRay, to, pending_);
         walkBy(crossings);
     }
 

@@ -75,6 +75,13 @@ TEST_F(CitySources, AreAnErrorIfTooManyFeaturesWouldBeLeftOut) {
     EXPECT_EQ(allowed.exitCode, 0) << allowed.toString();
 }
 
+TEST_F(CitySources, APlaceOutsideOfTheAreaOfTheCrsIsAWarning) {
+    write("a.city.jsonl", boxesOf("https://www.opengis.net/def/crs/EPSG/0/25832", "a", 3, 121000, 487000));
+    const CommandResult planned = plan();
+    EXPECT_EQ(planned.exitCode, 0) << planned.toString();
+    EXPECT_NE(planned.err.find("E129 OutsideArea"), std::string::npos) << planned.toString();
+}
+
 TEST_F(CitySources, AFileWhoseUnitIsInDoubtIsLeftOut) {
     write("a.city.jsonl", boxesOf(kDutch, "a", 8, 121000, 487000));
     write("b.city.jsonl", boxCity("", {{"b0", 0, 0, 9000}, {"b1", 40, 0, 9000}}));
