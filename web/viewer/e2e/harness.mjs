@@ -12,7 +12,10 @@ export const repository = resolve(here, "../../..");
 export const page = process.env.SVT_VIEWER_DIR ?? join(repository, "build/release/share/svt/viewer");
 export const command = process.env.SVT_COMMAND ?? join(repository, "build/release/bin/svt");
 export const dataDir = process.env.SVT_DATA_DIR ?? resolve(repository, "../shared/data");
-/** Milliseconds by which scripts and style sheets come late, half to twice as many by chance. It finds tests that do not wait for them. */
+/**
+ * Milliseconds by which scripts and style sheets come late, half to twice as many by chance; requests of the page reach its workers
+ * after a quarter of that. It finds tests that do not wait for them.
+ */
 const delay = Number(process.env.SVT_DELAY ?? 0);
 /** Without the windows of Chromium, which take a third of the processor time of a visit. */
 export const browserPath = process.env.SVT_CHROMIUM ?? "/usr/bin/chromium-headless-shell";
@@ -103,7 +106,35 @@ let started = null;
 /** A context of the one browser of this process, in which nothing is kept: to start a browser takes seconds. */
 export async function newContext(options = {}) {
   started ??= chromium.launch({ ...kBrowser, args: [...kBrowser.args, ...kQuick], timeout: 0 });
-  return (await started).newContext({ ...kPage, ...options });
+  const context = await (await started).newContext({ ...kPage, ...options });
+  await context.addInitScript(watchWorkers, delay / 4);
+  return context;
+}
+
+/** In the page: counts the cameras for which it has asked a worker (`svtAwaitedCameras`), and delays each request. */
+function watchWorkers(delay) {
+  const awaited = new Map();
+  Object.defineProperty(globalThis, "svtAwaitedCameras", { get: () => awaited.size });
+  const { postMessage, terminate } = Worker.prototype;
+  const ends = new WeakMap();
+  let numbers = 0;
+  const numberOf = new WeakMap();
+  const keyOf = (worker, id) => `${numberOf.get(worker)} ${id}`;
+  Worker.prototype.postMessage = function (request, transfer) {
+    if (!numberOf.has(this)) {
+      numberOf.set(this, ++numbers);
+      this.addEventListener("message", ({ data }) => "step" in data || awaited.delete(keyOf(this, data.id)));
+    }
+    if (request.name === "view") awaited.set(keyOf(this, request.id), this);
+    const post = () => postMessage.call(this, request, transfer);
+    if (!delay) return post();
+    const late = new Promise((done) => setTimeout(done, delay * 2 ** (2 * Math.random() - 1)));
+    ends.set(this, Promise.all([ends.get(this), late]).then(post));
+  };
+  Worker.prototype.terminate = function () {
+    terminate.call(this);
+    for (const [key, worker] of awaited) if (worker === this) awaited.delete(key);
+  };
 }
 export const endBrowser = async () => {
   await (await started)?.close();
