@@ -8,20 +8,20 @@ cd "$(dirname "$0")/.."
 svt=build/release/bin/svt
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-$svt build "$model" -o "$work/house.svt" --dimension 800,700,400 --vectors edges
+$svt build "$model" -o "$work/house.svt" --dimension 800,700,400 --vectors edges,meshes
 $svt sample tower -o "$work/tower.gml"
 $svt build "$work/tower.gml" -o "$work/tower.svt" --spacing 0.05
-draw() { # picture, volume, scene, size, surfaces
-  $svt render "$work/$2.svt" --scene "examples/scenes/$3.scene.json" --size "$4" --surfaces "${5:-exact}" -o "docs/images/$1.png"
+draw() { # picture, volume, scene, size
+  $svt render "$work/$2.svt" --scene "examples/scenes/$3.scene.json" --size "$4" -o "docs/images/$1.png"
   echo "docs/images/$1.png"
 }
 draw section_beam house slab_and_beam 900x540
 draw cutaway house beam_cutaway 900x640
-$svt render "$work/house.svt" -o docs/images/cutaway_walls.png --size 900x640 --look paper --surfaces exact --hide class=BuildingRoom \
+$svt render "$work/house.svt" -o docs/images/cutaway_walls.png --size 900x640 --look paper --hide class=BuildingRoom \
   --cutaway 'name~"Wand-Int"' --color 'name~"Wand-Int":red'
 draw lens house lens 900x640
 draw wireframe house wireframe 600x400
-draw storeys_apart house storeys_apart 900x640 voxels
+draw storeys_apart house storeys_apart 900x640
 draw inset house inset 900x640
 draw rooms_by_area house rooms_by_area 900x640
 draw flats tower two_flats_in_their_tower 640x720
@@ -35,7 +35,7 @@ draw plan_names sample plan_with_names 900x640
 $svt render "$work/sample.svt" --scene examples/scenes/film.scene.json -o docs/images/film.webp
 $svt build "$work/plan/house.gml" -o "$work/fine.svt" --spacing 0.03
 $svt render "$work/fine.svt" --scene examples/scenes/section_moving.scene.json -o docs/images/section_moving.webp
-$svt render "$work/fine.svt" -o docs/images/quantities_walls.png --size 900x560 --look paper --surfaces exact \
+$svt render "$work/fine.svt" -o docs/images/quantities_walls.png --size 900x560 --look paper \
   --show 'class=BuildingConstructiveElement and storey="Ground floor"' --hide 'name~"Intermediate slab"' \
   --color 'name~"^Exterior wall":#d9a441' --color 'name~"^(Spine|Wall)":#6aa0c8'
 $svt section "$work/sample.svt" -o docs/images/section.svg

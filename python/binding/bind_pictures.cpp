@@ -37,7 +37,7 @@ SharedFrame draw(const SharedVolume& volume, const py::dict& given, const py::ob
         render::CastOptions casting;
         casting.progress = progress;
         casting.isAdaptive = true;  // like the command, so that pictures are equal
-        return volume->paint(scene, options.surfaces, casting, made->notes);
+        return volume->paint(scene, casting, made->notes);
     });
     made->frame = std::move(painting.frame);
     return made;
@@ -52,9 +52,9 @@ SharedFrame drawCity(const CityObject& city, const py::dict& given, const py::ob
     const auto options = fromKeywords<frontend::SceneOptions>(given);
     if (!options.cutaway.empty())
         throw Failure(Error(Code::BadArgument, "cutaway: for one volume only; take a part of the city"));
-    if (options.surfaces != frontend::SurfaceSource::Voxels)
-        throw Failure(Error(Code::BadArgument, "surfaces: exact is for one volume only; take a part of the city"));
     const illustrate::Scene scene = valueOf(options.toScene(1));
+    if (scene.surfaces == illustrate::SurfaceSource::Exact)
+        throw Failure(Error(Code::BadArgument, "surfaces: exact is for one volume only; take a part of the city"));
     auto made = std::make_shared<FrameObject>();
     made->dpi = options.printedDpi();
     auto painting = longCall(report, [&](const Progress* progress) -> Result<illustrate::Painting> {

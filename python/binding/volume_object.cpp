@@ -37,19 +37,11 @@ const VolumeObject::Measures& VolumeObject::measures() {
     return *measures_;
 }
 
-Result<illustrate::Painting> VolumeObject::paint(illustrate::Scene scene, frontend::SurfaceSource surfaces,
-                                                 const render::CastOptions& options, std::vector<std::string>& notes) {
+Result<illustrate::Painting> VolumeObject::paint(const illustrate::Scene& scene, const render::CastOptions& options,
+                                                 std::vector<std::string>& notes) {
     const std::lock_guard lock(painting_);
     if (!painter_) painter_.emplace(volume_);
-    if (surfaces == frontend::SurfaceSource::Exact) {
-        SVT_DO(frontend::prepareForFaces(scene));
-        if (!faces_) {
-            SVT_TRY(made, frontend::makeFaces(volume_, notesOfFaces_));
-            faces_ = std::move(*made);
-        }
-        notes = notesOfFaces_;
-    }
-    painter_->drawBy(surfaces == frontend::SurfaceSource::Exact ? faces_.get() : nullptr);
+    painter_->drawFacesBy(illustrate::makeFaces);
     std::optional<fields::Field> field;
     if (scene.field && !path_.empty()) {
         SVT_TRY(read, fields::readField(path_, scene.field->name));
@@ -61,6 +53,8 @@ Result<illustrate::Painting> VolumeObject::paint(illustrate::Scene scene, fronte
     auto painting = painter_->paint(scene, options);
     painter_->tolerateNothing(nullptr);
     painter_->reportTo(nullptr);
+    if (painting)
+        if (std::string text = painting->surfaces.note(); !text.empty()) notes.push_back(std::move(text));
     if (field) SVT_DO(painter_->showField(nullptr));
     return painting;
 }

@@ -9,7 +9,6 @@
 #include <svt/analyze/label_measures.hpp>
 #include <svt/analyze/selection.hpp>
 #include <svt/core/diagnostics.hpp>
-#include <svt/frontend/exact_faces.hpp>
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -58,8 +57,7 @@ public:
 
     /// Draws a picture; one at a time. Reads the field of the scene from path().
     /// \param notes  gets queries that select nothing, and features that voxels show in spite of exact surfaces
-    [[nodiscard]] Result<illustrate::Painting> paint(illustrate::Scene scene, frontend::SurfaceSource surfaces,
-                                                     const render::CastOptions& options,
+    [[nodiscard]] Result<illustrate::Painting> paint(const illustrate::Scene& scene, const render::CastOptions& options,
                                                      std::vector<std::string>& notes);
 
 private:
@@ -70,8 +68,6 @@ private:
     std::optional<volume::BrickVolume> bricks_;
     std::optional<Measures> measures_;
     std::optional<illustrate::ScenePainter> painter_;
-    std::unique_ptr<render::FaceModel> faces_;  // made for the first picture with exact surfaces
-    std::vector<std::string> notesOfFaces_;
 };
 
 using SharedVolume = std::shared_ptr<VolumeObject>;

@@ -351,8 +351,8 @@ class Words(unittest.TestCase):
             v.render(sectoin="z=1")
         with self.assertRaisesRegex(TypeError, "memory"):
             v.render(memory=100)
-        with self.assertRaisesRegex(svt.Error, "surfaces exact does not support explode"):
-            house().render(surfaces="exact", explode=2)
+        with self.assertRaisesRegex(svt.Error, "surfaces exact does not support cells"):
+            house().render(surfaces="exact", cells=True)
         with self.assertRaisesRegex(TypeError, "output"):
             v.render(output="x.png")
         for options in (

@@ -1,7 +1,9 @@
 #pragma once
 /// \file
-/// Space that two solids claim, m3: exact from closed meshes, however thin; from voxels if there are no closed meshes.
+/// The owner of space that several objects claim, and the space that two solids claim, m3: exact from closed meshes,
+/// however thin; from voxels if there are no closed meshes.
 
+#include <svt/model/classes.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
 #include <cstddef>
@@ -9,6 +11,16 @@
 #include <vector>
 
 namespace svt::analyze {
+
+/// Whether a label is the glass of a window.
+[[nodiscard]] bool isPane(const volume::Label& label);
+
+/// The rank of a label's class where objects overlap; panes have that of furniture.
+[[nodiscard]] model::ClassRank rankOf(const volume::Label& label);
+
+/// All labels by their priority where objects overlap, the highest first: by class, solids before surfaces, then the
+/// smaller volume, then the id (voxelize::ObjectClaim). Cost: O(n log n).
+[[nodiscard]] std::vector<std::uint32_t> labelsByPriority(const volume::LabelTable& table);
 
 /// Space that two labels claim.
 struct SolidOverlap {

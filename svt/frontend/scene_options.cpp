@@ -329,11 +329,6 @@ record::Members<SceneOptions> membersOf(const SceneOptions*) noexcept {
                                 {.value = "QUERY:HATCH", .group = "Style", .isForProjects = true}),
         member<&Scene::level>("--level", "",
                               {.group = "Style", .like = "/passes/*/level", .excludes = "--gl", .isForProjects = true}),
-        member<&Scene::surfaces>(
-            "--surfaces",
-            "the source of the labels: the voxels, or the faces of the model, which are exact at any "
-            "spacing, but take a few times as long",
-            {.group = "Style"}),
         member<&Scene::sceneFile>("--scene", "scene file; the other options change it",
                                   {.value = "S.scene.json", .group = "Scene", .file = FileUse::OtherInput}),
     };

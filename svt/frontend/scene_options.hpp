@@ -2,7 +2,6 @@
 /// \file
 /// Options that describe a picture, converted to a scene: of `svt render`, and keywords of render() in Python.
 
-#include <svt/frontend/exact_faces.hpp>
 #include <svt/illustrate/scene.hpp>
 #include <svt/illustrate/scene_members.hpp>
 #include <svt/record/members.hpp>
@@ -27,7 +26,6 @@ struct SceneOptions {
     std::optional<double> wireWidth;
     std::optional<int> dpi, level, contextLevel;
     bool hasCells = false;
-    SurfaceSource surfaces = SurfaceSource::Voxels;
 
     /// Resolution to store in the picture for printing; 0: none.
     [[nodiscard]] int printedDpi() const;

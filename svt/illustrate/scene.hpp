@@ -61,6 +61,15 @@ struct SceneLines {
     friend bool operator==(const SceneLines&, const SceneLines&) = default;
 };
 
+/// The source of the labels of a picture.
+enum class SurfaceSource : std::uint8_t {
+    Voxels,
+    Exact  ///< the faces of the model (render::FaceModel), and voxels for features without closed mesh
+};
+constexpr auto namesOf(SurfaceSource) {
+    return std::to_array<Name<SurfaceSource>>({{SurfaceSource::Voxels, "voxels"}, {SurfaceSource::Exact, "exact"}});
+}
+
 /// The representation of the volume that a pass draws.
 struct VolumeRepresentation {
     std::optional<ShellLevel> shell;  ///< the hulls of groups of this level, two voxels thick; unset: the volume
@@ -181,6 +190,7 @@ struct SceneField {
 struct Scene {
     std::int32_t width = 1280, height = 720;  ///< pixels
     int samples = 4;                          ///< rays per pixel
+    std::optional<SurfaceSource> surfaces;    ///< unset: see drawsFaces()
     Look look = Look::Plain;
     SceneCamera camera;
     std::optional<Vec3f> background;  ///< overrides the look's

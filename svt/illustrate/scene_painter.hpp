@@ -5,6 +5,7 @@
 
 #include <svt/fields/field.hpp>
 #include <svt/illustrate/details.hpp>
+#include <svt/illustrate/exact_faces.hpp>
 #include <svt/illustrate/scene.hpp>
 #include <svt/render/ray_caster.hpp>
 #include <svt/volume/brick_volume.hpp>
@@ -31,9 +32,17 @@ struct Painting {
         std::size_t hidden = 0;       ///< labels that are not visible: not drawn
         std::size_t withoutRoom = 0;  ///< not drawn, for lack of space
     };
+    /// The features of a picture with SurfaceSource::Exact; 0 for other pictures.
+    struct Surfaces {
+        std::size_t features = 0;
+        std::size_t byVoxels = 0;  ///< without closed mesh, with a pattern, or with material divided among surfaces
+        /// How many features voxels show, and why; empty for none.
+        [[nodiscard]] std::string note() const;
+    };
     render::Frame frame;
     render::FrameSpec spec;
     Names names{};
+    Surfaces surfaces{};
 };
 
 /// Not thread-safe.
@@ -52,10 +61,9 @@ public:
     /// From now on reports the stage "prepare" to `progress` while a representation of the volume is made; may be null.
     void reportTo(const Progress* progress) noexcept { progress_ = progress; }
 
-    /// From now on the runs of rays through the volume come from `source`, such as a render::FaceModel, at its finest
-    /// level. Hulls, cells, coarse levels, details and storeys that are drawn apart keep their bricks.
-    /// \param source  of the painter's volume; must outlive the painter
-    void drawBy(const render::RunSource* source) noexcept { source_ = source; }
+    /// From now on pictures show the faces of the model, which `maker` makes on first use, where drawsFaces() and the
+    /// volume has meshes. nullptr: they show voxels, and SurfaceSource::Exact is an error.
+    void drawFacesBy(FaceMaker maker) noexcept { makeFaces_ = maker; }
 
     /// From now on scenes with Scene::field draw this field: cut faces and visible opaque surfaces have the colour of its
     /// value at their place. nullptr: scenes with a field are an error. Storeys drawn apart and details are an error.
@@ -85,11 +93,12 @@ public:
     void mixStyles(std::vector<StyleMixture> mixtures) { mixtures_ = std::move(mixtures); }
 
     /// Draws `scene`, with its name tags.
-    /// \return picture and frame, or an error of makeFrameSpec(), extractShell() or castRays()
+    /// \return picture and frame, or an error of makeFrameSpec(), extractShell() or castRays(); BadArgument for exact
+    ///         surfaces with cells or coarse levels, or of a volume without meshes (details without meshes keep voxels)
     /// Cost: that of castRays(), and once that of each representation.
     [[nodiscard]] Result<Painting> paint(const Scene& scene, const render::CastOptions& options = {});
 
-    /// Draws a draft of the same scene, for a quick first picture: surfaces show their voxels, and distant parts may
+    /// Draws a draft of the same scene, for a quick first picture: all surfaces show their voxels, and distant parts may
     /// alias. Keeps no bricks or levels. About three times faster than a picture that must make these first.
     /// \return like paint(), or an error of BrickVolume::fromColumns()
     /// Cost: that of castRays() and of bricks of voxels, in each call.
@@ -97,7 +106,8 @@ public:
 
     /// Renders a frame from the volumes that the passes draw, and the frame description.
     using Draw = std::function<Result<render::Frame>(std::span<const render::DrawnVolume>, const render::FrameSpec&)>;
-    /// Like the first paint(), with another renderer. A scene with a field is an error.
+    /// Like the first paint(), with another renderer, which draws voxels. A scene with a field or with SurfaceSource::Exact
+    /// is an error.
     [[nodiscard]] Result<Painting> paint(const Scene& scene, const Draw& draw);
 
     /// The painter of the volume with storeys drawn `distance` apart, made on first request; this painter for 0. It
@@ -107,14 +117,16 @@ public:
     [[nodiscard]] const volume::SemanticVolume& volume() const noexcept { return volume_; }
 
     /// A representation of the volume for the frame `spec`. It lives as long as the painter.
-    [[nodiscard]] Result<render::DrawnVolume> representation(const VolumeRepresentation& representation,
-                                                             const render::FrameSpec& spec);
+    [[nodiscard]] Result<render::DrawnVolume> representation(
+        const VolumeRepresentation& representation, const render::FrameSpec& spec,
+        std::optional<SurfaceSource> surfaces = SurfaceSource::Voxels);
 
 private:
     // The volume or a shell of it, with its bricks and levels of detail.
     struct Representations;
     Result<Representations*> findRepresentations(std::size_t number, std::optional<ShellLevel> shell);
     [[nodiscard]] Result<render::DrawnVolume> representationOf(std::size_t number, const VolumeRepresentation& wanted,
+                                                               std::optional<SurfaceSource> surfaces,
                                                                const render::FrameSpec& spec);
     [[nodiscard]] Result<std::vector<render::DrawnVolume>> drawnVolumes(const Scene& scene, render::FrameSpec& spec);
     struct Apart;
@@ -128,12 +140,14 @@ private:
                                           render::FrameSpec spec, std::span<render::DrawnVolume> drawn,
                                           const Draw& draw) const;
     [[nodiscard]] Result<void> checkField(const Scene& scene) const;
+    [[nodiscard]] Result<const render::RunSource*> facesOf(Representations& representations, bool areRequired);
+    [[nodiscard]] Painting::Surfaces countSurfaces() const;
 
     const volume::SemanticVolume& volume_;
     int threads_;
     std::vector<std::string>* nothing_ = nullptr;
     const Progress* progress_ = nullptr;
-    const render::RunSource* source_ = nullptr;  // null: the bricks
+    FaceMaker makeFaces_ = nullptr;
     std::vector<std::unique_ptr<Representations>> representations_;
     std::unique_ptr<Apart> apart_;
     struct Detail {

@@ -1,6 +1,7 @@
 #include <svt/pipeline/labels.hpp>
 
 #include <svt/analyze/selection.hpp>
+#include <svt/analyze/solid_overlaps.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/model/phases.hpp>
 
@@ -137,18 +138,11 @@ std::optional<float> materialOpacity(const volume::Label& label, const mesh::Obj
     return std::nullopt;
 }
 
-bool isPane(const volume::Label& label) { return model::isPhase(label.className) && label.name == model::kGlass; }
-
-// Panes are finer than the surfaces of their windows, which lie on them.
-model::ClassRank rankOf(const volume::Label& label) {
-    return isPane(label) ? model::ClassRank::Furniture : model::classRank(label.className);
-}
-
 // The surfaces of windows that bound rooms lie before and behind panes: they are clear where the model has panes.
 void clearWindowSurfaces(const volume::LabelTable& table, const std::vector<std::optional<Vec3f>>& colors,
                          double thinnest, std::vector<std::optional<float>>& opacities) {
     constexpr double kPasses = 0.9;
-    if (std::none_of(table.labels.begin(), table.labels.end(), isPane)) return;
+    if (std::none_of(table.labels.begin(), table.labels.end(), analyze::isPane)) return;
     const auto clear = static_cast<float>(1 - std::pow(kPasses, 1 / thinnest));
     for (std::size_t l = 0; l < table.labels.size(); ++l)
         if (table.labels[l].className == "WindowSurface" && table.labels[l].filling == volume::Filling::Surface &&
@@ -164,7 +158,7 @@ void addClaims(const mesh::MeshSet& meshes, const std::vector<std::uint32_t>& ob
     for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
         const std::uint32_t l = result.labelOfObject[o];
         const volume::Label& label = table.labels[l];
-        result.claims[o] = {label.first, static_cast<std::uint8_t>(rankOf(label)), label.id,
+        result.claims[o] = {label.first, static_cast<std::uint8_t>(analyze::rankOf(label)), label.id,
                             bodyOf(table, objectOf, meshes, l)};
         if (!table.phaseColors.empty())
             for (volume::Scalar s = 0; s < label.count; ++s)
@@ -246,22 +240,6 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
     if (hasPattern) table.phaseColors.resize(next);
     addClaims(meshes, objectOf, styles, result);
     return result;
-}
-
-std::vector<std::uint32_t> labelsByPriority(const volume::LabelTable& table) {
-    using Key = std::tuple<model::ClassRank, bool, double, std::string_view, std::uint32_t>;
-    std::vector<Key> keys;
-    keys.reserve(table.labels.size());
-    for (std::uint32_t l = 0; l < table.labels.size(); ++l) {
-        const volume::Label& label = table.labels[l];
-        const bool isSolid = volume::hasClosedMesh(label.filling);
-        const double size = isSolid && label.volume > 0 ? label.volume : 0;
-        keys.emplace_back(rankOf(label), !isSolid, size, label.id, l);
-    }
-    std::sort(keys.begin(), keys.end());
-    std::vector<std::uint32_t> order;
-    for (const Key& key : keys) order.push_back(std::get<std::uint32_t>(key));
-    return order;
 }
 
 }  // namespace svt::pipeline

@@ -31,8 +31,4 @@ void addCapFeatures(model::BuildingModel& model, const mesh::MeshSet& meshes);
 [[nodiscard]] Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh::MeshSet& meshes,
                                                  std::span<const StyleSheet* const> sheets, double thinnest = 0.05);
 
-/// All labels by their priority where objects overlap, the highest first: by class, solids before surfaces, then the
-/// smaller volume, then the id (voxelize::ObjectClaim).
-[[nodiscard]] std::vector<std::uint32_t> labelsByPriority(const volume::LabelTable& table);
-
 }  // namespace svt::pipeline

@@ -49,7 +49,8 @@ public:
     [[nodiscard]] std::uint64_t scalarCount() const noexcept override;
 
     /// Visits the runs of one ray in [from, to), which must lie in spanInVolume(). Crossings within 0.1 mm of each other
-    /// are in one place. A translucent sheet absorbs light as if it were one voxel thick.
+    /// are in one place. A translucent sheet, or a body whose mean thickness is less, absorbs light as if it were one
+    /// voxel thick, as in pictures of voxels.
     /// \param metresPerT  metres per unit of the ray's parameter
     /// Cost: O(log(triangles) * crossings up to the end of the walk).
     void walk(const volume::BrickVolume& bricks, const VoxelRay& ray, double metresPerT, double from, double to,

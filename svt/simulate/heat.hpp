@@ -69,7 +69,7 @@ struct HeatOptions {
     std::string name = "temperature";  ///< of the field
     double tolerance = 1e-8;           ///< of the residual, relative
     int mostIterations = 1000;
-    /// All labels, the highest priority first (pipeline::labelsByPriority()): lines between voxels follow the meshes of the
+    /// All labels, the highest priority first (analyze::labelsByPriority()): lines between voxels follow the meshes of the
     /// volume. Empty, or without meshes: they follow its planes, and thin layers have the thickness of voxels.
     std::vector<std::uint32_t> priority;
     int threads = 0;                     ///< 0: all cores; the result does not depend on it

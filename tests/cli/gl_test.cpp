@@ -31,7 +31,7 @@ void expectSame(const std::vector<std::string>& options) {
     const auto drawn = runSvt(folder.path(), with({"-o", "gl.png", "--labels", "glIds.png", "--gl"}), glLimits());
     if (drawn.exitCode == kNoGraphics) GTEST_SKIP() << drawn.err;
     ASSERT_EQ(drawn.exitCode, 0) << drawn.toString();
-    runSvtWell(folder.path(), with({"-o", "cpu.png", "--labels", "cpuIds.png"}));
+    runSvtWell(folder.path(), with({"-o", "cpu.png", "--labels", "cpuIds.png", "--surfaces", "voxels"}));
     const auto gl = image::readPng(folder / "gl.png"), cpu = image::readPng(folder / "cpu.png");
     ASSERT_TRUE(gl && cpu);
     // Not 0: the CPU supersamples a pixel only if it differs from its neighbours.

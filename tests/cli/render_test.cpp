@@ -76,7 +76,9 @@ void expectAsReference(const std::filesystem::path& folder, const Picture& pictu
 class PictureTest : public ::testing::TestWithParam<Picture> {};
 
 TEST_P(PictureTest, LooksAsItsReference) {
-    const Picture& picture = GetParam();
+    // Those of scenes and models have the faces of the model.
+    Picture picture = GetParam();
+    picture.options.insert(picture.options.end(), {"--surfaces", "voxels"});
     const TemporaryFolder folder;
     prepareHouse(folder.path(), "0.06", picture.build);
     expectAsReference(folder.path(), picture);
@@ -279,8 +281,35 @@ TEST_F(SmallHouse, ExactSurfacesAreThoseOfTheModelAndItsVolume) {
     const auto ofModel = image::readPng(folder / "p.png");
     ASSERT_TRUE(ofModel);
     EXPECT_EQ(*ofModel, ofVolume);
-    EXPECT_NE(draw({"--section", "y<5", "--hide", "class=BuildingRoom"}), ofVolume);
-    EXPECT_NE(draw({"--surfaces", "exact"}), ofVolume);
+    EXPECT_EQ(draw({"--section", "y<5", "--hide", "class=BuildingRoom"}), ofVolume) << "exact is the default";
+    EXPECT_NE(draw({"--section", "y<5", "--hide", "class=BuildingRoom", "--surfaces", "voxels"}), ofVolume);
+}
+
+TEST_F(SmallHouse, ExactSurfacesAreThoseOfStoreysApartAndOfDetails) {
+    EXPECT_NE(draw({"--explode", "3"}), draw({"--explode", "3", "--surfaces", "voxels"}));
+    // A detail of the same place and the same faces changes nothing, except where two rounded corners decide.
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "fine.svt", "--spacing", "0.1"});
+    const auto ofDetail = draw({"--surfaces", "exact", "--with", "fine.svt"});
+    EXPECT_LT(image::compareImages(ofDetail, draw({"--surfaces", "exact"})).error, 0.05);
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "fine.svt", "--spacing", "0.1", "--vectors", "none"});
+    const CommandResult result =
+        runSvt(folder.path(), {"render", "house.svt", "-o", "p.png", "--surfaces", "exact", "--with", "fine.svt"});
+    EXPECT_EQ(result.exitCode, 0) << result.toString();
+    EXPECT_NE(result.err.find("voxels show them"), std::string::npos) << result.toString();
+}
+
+TEST_F(SmallHouse, ASceneFileKeepsTheSourceOfTheSurfaces) {
+    const auto voxels = draw({"--surfaces", "voxels", "--write-scene", "voxels.scene.json"});
+    EXPECT_EQ(draw({"--scene", "voxels.scene.json"}), voxels);
+    EXPECT_NE(draw({"--scene", "voxels.scene.json", "--surfaces", "exact"}), voxels);
+}
+
+TEST_F(SmallHouse, WithoutMeshesPicturesAreThoseOfVoxels) {
+    const auto voxels = draw({"--surfaces", "voxels"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2", "--vectors", "none"});
+    EXPECT_EQ(draw({}), voxels);
+    EXPECT_EQ(draw({"--cells"}), draw({"--cells", "--surfaces", "voxels"}));
+    EXPECT_EQ(draw({"--level", "1"}), draw({"--level", "1", "--surfaces", "voxels"}));
 }
 
 TEST_F(SmallHouse, FeaturesWithoutExactSurfaceAreCounted) {
@@ -302,8 +331,6 @@ TEST_F(SmallHouse, ExactSurfacesRefuseWhatNeedsVoxels) {
     refused({"--gl"}, "--surfaces exact does not support --gl");
     refused({"--cells"}, "--surfaces exact does not support --cells");
     refused({"--level", "2"}, "--surfaces exact does not support --level");
-    refused({"--explode", "3"}, "--surfaces exact does not support --explode");
-    refused({"--with", "house.svt"}, "--surfaces exact does not support --with");
     runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2", "--vectors", "none"});
     refused({}, "--vectors meshes");
 }

@@ -2,6 +2,7 @@
 
 #include "mesh_tracer.hpp"
 
+#include <svt/analyze/solid_overlaps.hpp>
 #include <svt/image/color.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/model/phases.hpp>
@@ -202,7 +203,7 @@ Result<std::vector<PictureErrors>> measurePictures(const model::BuildingModel& g
         if (model::isSpace(label.className)) std::fill_n(isHidden.begin() + label.first, label.count, char{1});
     std::unique_ptr<render::FaceModel> faces;
     if (options.isExact) {
-        SVT_TRY(made, render::FaceModel::make(volume, pipeline::labelsByPriority(volume.labels)));
+        SVT_TRY(made, render::FaceModel::make(volume, analyze::labelsByPriority(volume.labels)));
         faces = std::move(*made);
     }
     const Drawn drawn{volume, *bricks, isHidden, faces.get()};

@@ -71,6 +71,7 @@ Session::Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findin
       findings_(std::move(findings)),
       painter_(volume_) {
     for (const volume::SemanticVolume& detail : details_) painter_.addDetail(detail);
+    painter_.drawFacesBy(faceMaker());
     labelOfScalar_ = volume_.labels.labelOfScalar();
 }
 
@@ -173,6 +174,7 @@ Result<const render::Frame*> Session::draw(const illustrate::Scene& scene, bool 
             isDraft && !isOfParts_ ? painter_.paintDraft(scene, castOptions()) : painter_.paint(scene, castOptions()));
     lastSpec_ = std::move(painting->spec);
     lastRepresentations_ = illustrate::volumeRepresentations(scene);
+    lastSurfaces_ = scene.surfaces;
     lastApart_ = scene.explode;
     lastFrame_ = std::move(painting->frame);
     return &*lastFrame_;
@@ -183,10 +185,11 @@ Result<void> Session::drawGl(const illustrate::Scene& scene, Purpose purpose) {
     const auto representations = illustrate::volumeRepresentations(scene);
     const int level = representations.front().level.value_or(render::levelForView(*spec, volume_.grid));
     const bool hasMore = !details_.empty() || scene.explode != 0 || scene.sun || !scene.insets.empty() ||
-                         representations.front().hasCells;
+                         representations.front().hasCells || scene.surfaces != illustrate::SurfaceSource::Voxels;
     if (representations.size() != 1 || representations.front().shell || level != 0 || !scene.names.empty() || hasMore)
         return Error(Code::BadArgument,
-                     "names, shells, levels of detail, cells, insets, storeys apart and the sun are drawn by the CPU");
+                     "names, shells, levels of detail, cells, insets, storeys apart, the sun and exact surfaces are "
+                     "drawn by the CPU");
     if (!gl_) {
         const auto whole = painter_.representation({{}, 0}, *spec);
         if (!whole) return whole.error();
@@ -197,6 +200,7 @@ Result<void> Session::drawGl(const illustrate::Scene& scene, Purpose purpose) {
     if (purpose == Purpose::Trial) return {};
     lastSpec_ = std::move(*spec);
     lastRepresentations_ = representations;
+    lastSurfaces_ = scene.surfaces;
     lastApart_ = 0;
     lastFrame_.reset();
     return {};
@@ -274,7 +278,7 @@ std::optional<Picked> Session::behindGlass(const render::ViewRay& ray, bool hasS
     if (!painter) return {};
     std::vector<render::DrawnVolume> drawn;
     for (const illustrate::VolumeRepresentation& wanted : lastRepresentations_) {
-        const auto made = (*painter)->representation(wanted, *lastSpec_);
+        const auto made = (*painter)->representation(wanted, *lastSpec_, lastSurfaces_);
         if (!made) return {};
         drawn.push_back(*made);
     }

@@ -85,7 +85,7 @@ public:
     enum class Purpose : std::uint8_t { Shown, Trial };
     /// The same with WebGL2, into the lower left of the framebuffer of the current context; always the same context.
     /// \return nothing, or an error of draw() or GlRenderer; BadArgument if the scene needs the CPU: names, shells
-    ///         besides the volume, levels of detail, cells, insets, storeys apart, sun
+    ///         besides the volume, levels of detail, cells, insets, storeys apart, sun, exact surfaces
     [[nodiscard]] Result<void> drawGl(const illustrate::Scene& scene, Purpose purpose);
     /// Discards the resources in the context, for example after it was lost.
     void dropGl();
@@ -131,6 +131,7 @@ private:
     illustrate::ScenePainter painter_;
     std::optional<render::FrameSpec> lastSpec_;
     std::vector<illustrate::VolumeRepresentation> lastRepresentations_;
+    std::optional<illustrate::SurfaceSource> lastSurfaces_;
     double lastApart_ = 0;                    // Scene::explode
     std::optional<render::Frame> lastFrame_;  // none if drawn with WebGL2
     std::optional<render_gl::GlRenderer> gl_;

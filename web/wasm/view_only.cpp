@@ -6,6 +6,8 @@ Result<BuiltVolume> buildModels(std::span<const NamedBytes>, const OpenOptions&,
     return Error(Code::BadArgument, "this module reads no models; the whole module does");
 }
 
+illustrate::FaceMaker faceMaker() noexcept { return nullptr; }
+
 std::span<const Call> wholeCalls() noexcept { return {}; }
 
 }  // namespace svt::web

@@ -64,6 +64,8 @@ Result<BuiltVolume> buildModels(std::span<const NamedBytes> files, const OpenOpt
     return built;
 }
 
+illustrate::FaceMaker faceMaker() noexcept { return illustrate::makeFaces; }
+
 std::span<const Call> wholeCalls() noexcept {
     static constexpr Call kCalls[] = {{"drawing", drawing}, {"sheets", sheets}};
     return kCalls;

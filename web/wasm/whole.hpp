@@ -1,12 +1,13 @@
 #pragma once
 /// \file
-/// Parts that only the whole module has: it reads models and makes drawings and sheets. The module that a visit starts
-/// with has neither, and is smaller by two fifths.
+/// Parts that only the whole module has: it reads models, draws exact surfaces, and makes drawings and sheets. A visit
+/// starts with a module that lacks them, and is smaller by two fifths.
 
 #include "calls.hpp"
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/progress.hpp>
+#include <svt/illustrate/exact_faces.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
 #include <span>
@@ -23,6 +24,9 @@ struct BuiltVolume {
 /// \return the volume, or an error of readModels() or buildVolume(); BadArgument in the module without readers
 [[nodiscard]] Result<BuiltVolume> buildModels(std::span<const NamedBytes> files, const OpenOptions& options,
                                               const Progress* progress, Diagnostics& findings);
+
+/// The maker of exact surfaces; null in the module that only draws voxels.
+[[nodiscard]] illustrate::FaceMaker faceMaker() noexcept;
 
 /// The calls of drawings and sheets; none in the module without writers.
 [[nodiscard]] std::span<const Call> wholeCalls() noexcept;

@@ -17,7 +17,6 @@
 #include <svt/drawing/line_view.hpp>
 #include <svt/drawing/section_plane.hpp>
 #include <svt/fields/field.hpp>
-#include <svt/frontend/exact_faces.hpp>
 #include <svt/frontend/scene_options.hpp>
 #include <svt/illustrate/color_by.hpp>
 #include <svt/illustrate/details.hpp>
@@ -25,9 +24,7 @@
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/illustrate/sun.hpp>
 #include <svt/image/png.hpp>
-#include <svt/pipeline/labels.hpp>
 #include <svt/readers/owner_table.hpp>
-#include <svt/render/face_model.hpp>
 #include <svt/render/frame_buffers.hpp>
 #include <svt/render_gl/egl_context.hpp>
 #include <svt/render_gl/gl_renderer.hpp>
@@ -166,20 +163,27 @@ bool isEmpty(const render::Frame& frame) {
 // Options to keep the vector data of the model that a scene needs.
 pipeline::BuildOptions withVectors(const RenderArguments& arguments, const illustrate::Scene& scene) {
     pipeline::BuildOptions build = arguments.build;
-    build.vectors.meshes = build.vectors.meshes || arguments.scene.surfaces == frontend::SurfaceSource::Exact;
+    if (illustrate::drawsFaces(scene) && !arguments.gl) {
+        // Faces are shown if there are any, unless they are wanted.
+        const bool isWanted = scene.surfaces.has_value() || build.vectors.edges || build.vectors.meshes;
+        build.vectors.isRequired = build.vectors.isRequired && isWanted;
+        build.vectors.meshes = true;
+    }
     for (const illustrate::ScenePass& pass : scene.passes) {
         build.vectors.edges = build.vectors.edges || !pass.lines.empty();
         build.vectors.meshes = build.vectors.meshes || !pass.meshes.empty();
+        build.vectors.isRequired = build.vectors.isRequired || !pass.lines.empty() || !pass.meshes.empty();
     }
     return build;
 }
 
 // Adds the owners of labels to the volume, and loads the volumes that are drawn with it.
-Result<std::vector<volume::SemanticVolume>> addInputs(const RenderArguments& arguments, const Progress* progress,
+Result<std::vector<volume::SemanticVolume>> addInputs(const RenderArguments& arguments,
+                                                      const pipeline::BuildOptions& build, const Progress* progress,
                                                       Diagnostics& diagnostics, volume::SemanticVolume& volume) {
     std::vector<volume::SemanticVolume> details;
     for (const auto& file : arguments.with) {
-        SVT_TRY(detail, loadVolume(file, arguments.build, progress, diagnostics));
+        SVT_TRY(detail, loadVolume(file, build, progress, diagnostics));
         details.push_back(std::move(*detail));
     }
     SVT_DO(illustrate::joinLabels(volume, details));
@@ -311,29 +315,18 @@ Result<void> checkForField(const RenderArguments& arguments, const illustrate::S
     return {};
 }
 
-// Refuses inputs, outputs and parts of a scene that are drawn only from voxels.
-Result<void> checkForFaces(const RenderArguments& arguments, illustrate::Scene scene) {
-    if (arguments.scene.surfaces != frontend::SurfaceSource::Exact) return {};
+// Refuses inputs and outputs that are drawn only from voxels.
+Result<void> checkForFaces(const RenderArguments& arguments, const illustrate::Scene& scene) {
+    if (scene.surfaces != illustrate::SurfaceSource::Exact) return {};
     const std::pair<bool, const char*> needs[] = {
         {isLineDrawing(arguments.output), "-o .svg or .pdf, which draw the faces already"},
         {arguments.gl, "--gl"},
-        {!arguments.with.empty(), "--with"},
         {isCity(arguments.input), "a city"}};
     for (const auto& [isGiven, option] : needs)
         if (isGiven)
             return Error(Code::BadArgument,
                          fmt::format("--surfaces exact does not support {}; leave out one of the two", option));
-    return frontend::prepareForFaces(scene);
-}
-
-// The faces of the model, for exact pictures; null if voxels give the labels.
-Result<std::unique_ptr<render::FaceModel>> facesFor(const RenderArguments& arguments,
-                                                    const volume::SemanticVolume& volume) {
-    if (arguments.scene.surfaces != frontend::SurfaceSource::Exact) return std::unique_ptr<render::FaceModel>();
-    std::vector<std::string> notes;
-    auto faces = frontend::makeFaces(volume, notes);
-    for (const std::string& text : notes) note(text);
-    return faces;
+    return illustrate::checkSurfaces(scene);
 }
 
 // Draws and writes the picture of a scene.
@@ -431,10 +424,11 @@ Result<int> runCityRender(const RenderArguments& arguments, Series& series, cons
 Result<int> runVolumeRender(const RenderArguments& arguments, Series& series, const illustrate::Scene& moving) {
     Diagnostics diagnostics;
     TerminalProgress progress;
-    auto volume = loadVolume(arguments.input, withVectors(arguments, moving), progress.get(), diagnostics);
+    const pipeline::BuildOptions build = withVectors(arguments, moving);
+    auto volume = loadVolume(arguments.input, build, progress.get(), diagnostics);
     if (!volume) printDiagnostics(diagnostics, arguments.verbose);
     if (!volume) return volume.error();
-    const auto details = addInputs(arguments, progress.get(), diagnostics, *volume);
+    const auto details = addInputs(arguments, build, progress.get(), diagnostics, *volume);
     printDiagnostics(diagnostics, arguments.verbose);
     if (!details) return details.error();
 
@@ -443,9 +437,8 @@ Result<int> runVolumeRender(const RenderArguments& arguments, Series& series, co
     std::vector<std::string> nothing;
     painter.tolerateNothing(&nothing);
     painter.reportTo(progress.get());
+    painter.drawFacesBy(illustrate::makeFaces);
     for (const volume::SemanticVolume& detail : *details) painter.addDetail(detail);
-    SVT_TRY(faces, facesFor(arguments, *volume));
-    painter.drawBy(faces->get());
     std::optional<fields::Field> field;
     if (moving.field) {
         SVT_TRY(read, readFieldOf(arguments.input, moving.field->name));
@@ -463,12 +456,12 @@ Result<int> runVolumeRender(const RenderArguments& arguments, Series& series, co
     int empty = 0;
     const auto draw = [&](illustrate::Scene& scene, int number) -> Result<void> {
         if (arguments.gl) takeFinest(scene);
-        if (*faces) SVT_DO(frontend::prepareForFaces(scene));
         SVT_TRY(painting,
                 arguments.gl ? painter.paint(scene, drawByGl) : painter.paint(scene, castOptions(arguments, progress)));
         empty += isEmpty(painting->frame);
         if (number == 0) {
             noteNames(painting->names);
+            if (const std::string text = painting->surfaces.note(); !text.empty()) note(text);
             noteSun(scene, *volume);
             noteMovedPlanes(scene, *volume);
             reportStoreys(scene, *volume, arguments.input);

@@ -107,6 +107,7 @@ private:
         SVT_TRY(volume, volumeOf(*wanted));
         volume_ = std::move(*volume);
         painter_.emplace(*volume_, threads_);
+        painter_->drawFacesBy(illustrate::makeFaces);
         opened_ = wanted;
         return {};
     }
@@ -166,7 +167,9 @@ Result<serve::PagePreview> pagePreview(std::span<const serve::SiteModel> models,
     render::CastOptions options;
     options.threads = threads;
     options.isAdaptive = true;
-    SVT_TRY(painting, illustrate::ScenePainter(*volume, threads).paint(scene, options));
+    illustrate::ScenePainter painter(*volume, threads);
+    painter.drawFacesBy(illustrate::makeFaces);
+    SVT_TRY(painting, painter.paint(scene, options));
     SVT_TRY(png, image::encodePng(painting->frame.color));
     preview.picture = serve::Bytes::of(std::string(reinterpret_cast<const char*>(png->data()), png->size()));
     return preview;

@@ -7,11 +7,11 @@
 #include <apps/cli/output/terminal_progress.hpp>
 #include <apps/cli/simulate/heat_report.hpp>
 
+#include <svt/analyze/solid_overlaps.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 #include <svt/fields/svt_fields.hpp>
 #include <svt/model/query.hpp>
-#include <svt/pipeline/labels.hpp>
 #include <svt/simulate/heat_over_time.hpp>
 #include <svt/volume/svt_file.hpp>
 
@@ -145,7 +145,7 @@ Result<int> runHeat(const HeatArguments& arguments) {
     build.vectors = {.meshes = true, .isRequired = false};
     SVT_TRY(volume, loadVolume(arguments.input, build, progress->get(), false));
     options->progress = progress->get();
-    options->priority = pipeline::labelsByPriority(volume->labels);
+    options->priority = analyze::labelsByPriority(volume->labels);
     return *time ? runOverTime(arguments, *volume, *options, **time, progress)
                  : runSteady(arguments, *volume, *options, progress);
 }

@@ -293,6 +293,11 @@ Members<Scene> membersOf(const Scene*) noexcept {
                                  .choices = "1|4|9|16",
                                  .group = "View",
                                  .option = "--samples"}),
+        member<&Scene::surfaces>(
+            "surfaces",
+            "the source of the labels: the voxels, or the faces of the model, which are exact at "
+            "any spacing, but take up to a few times as long",
+            {.otherwise = "exact, if the model has meshes", .group = "Style", .option = "--surfaces"}),
         member<&Scene::look>(
             "look",
             "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)",

@@ -79,12 +79,21 @@ void mix(const std::vector<ScenePainter::StyleMixture>& mixtures, const render::
 
 }  // namespace
 
+std::string Painting::Surfaces::note() const {
+    if (byVoxels == 0) return {};
+    return fmt::format(
+        "exact surfaces: {} of {} features have no closed mesh, a pattern, or material divided among surfaces; voxels "
+        "show them",
+        byVoxels, features);
+}
+
 struct ScenePainter::Representations {
     std::size_t number = 0;  // 0: the painter's volume; others: its details
     std::optional<ShellLevel> level;
     std::optional<volume::SemanticVolume> shell;
     const volume::SemanticVolume* volume = nullptr;
     std::optional<volume::BrickVolume> bricks, cells;  // `cells` has only voxels
+    std::optional<ExactFaces> faces;                   // made on first use
     std::map<int, volume::LodLevel> levels;            // made on first use
 };
 
@@ -121,16 +130,57 @@ Result<ScenePainter::Representations*> ScenePainter::findRepresentations(std::si
 }
 
 Result<render::DrawnVolume> ScenePainter::representation(const VolumeRepresentation& wanted,
-                                                         const render::FrameSpec& spec) {
-    return representationOf(0, wanted, spec);
+                                                         const render::FrameSpec& spec,
+                                                         std::optional<SurfaceSource> surfaces) {
+    return representationOf(0, wanted, surfaces, spec);
+}
+
+// The faces of the volume or of a detail; null: voxels show all features.
+Result<const render::RunSource*> ScenePainter::facesOf(Representations& representations, bool areRequired) {
+    const volume::SemanticVolume& volume = *representations.volume;
+    const bool isFirst = representations.number == 0;
+    std::optional<ExactFaces>& faces = representations.faces;
+    if (isFirst && areRequired && !(faces && faces->source)) {
+        if (makeFaces_ == nullptr)
+            return Error(Code::BadArgument, "exact surfaces are not available here; leave out --surfaces exact");
+        SVT_TRY(made, makeFaces_(volume));
+        faces = std::move(*made);
+    }
+    if (!faces && makeFaces_ != nullptr && !volume.vectors.triangles.empty()) {
+        SVT_TRY(made, makeFaces_(volume));
+        faces = std::move(*made);
+    }
+    if (!faces) {
+        const auto count = static_cast<std::size_t>(
+            std::ranges::count_if(volume.labels.labels, [](const volume::Label& label) { return label.voxels > 0; }));
+        faces = ExactFaces{nullptr, count, count};
+    }
+    return faces->source.get();
+}
+
+Painting::Surfaces ScenePainter::countSurfaces() const {
+    Painting::Surfaces sum;
+    for (const auto& representations : representations_) {
+        if (!representations->faces) continue;
+        sum.features += representations->faces->features;
+        sum.byVoxels += representations->faces->byVoxels;
+    }
+    return sum;
 }
 
 Result<render::DrawnVolume> ScenePainter::representationOf(std::size_t number, const VolumeRepresentation& wanted,
+                                                           std::optional<SurfaceSource> surfaces,
                                                            const render::FrameSpec& spec) {
     SVT_TRY(found, findRepresentations(number, wanted.shell));
     Representations& representations = **found;
     const volume::SemanticVolume& volume = *representations.volume;
-    const int level = wanted.level.value_or(wanted.hasCells ? 0 : render::levelForView(spec, volume.grid));
+    const render::RunSource* faces = nullptr;
+    if (drawsFaces(surfaces, wanted)) {
+        SVT_TRY(made, facesOf(representations, surfaces.has_value()));
+        faces = *made;
+    }
+    const bool isFinest = wanted.hasCells || faces != nullptr;
+    const int level = wanted.level.value_or(isFinest ? 0 : render::levelForView(spec, volume.grid));
     if (level > 0) {
         if (const int own = std::min(level, volume::lodLevelCount(volume.grid.dimension())); own > 0) {
             auto known = representations.levels.find(own);
@@ -151,8 +201,7 @@ Result<render::DrawnVolume> ScenePainter::representationOf(std::size_t number, c
         SVT_TRY(made, volume::BrickVolume::fromColumns(volume.columns, options));
         bricks = std::move(*made);
     }
-    const bool isBySource = number == 0 && !wanted.shell && !wanted.hasCells;
-    return render::DrawnVolume(*bricks, volume.grid, isBySource ? source_ : nullptr);
+    return render::DrawnVolume(*bricks, volume.grid, faces);
 }
 
 void ScenePainter::addDetail(const volume::SemanticVolume& detail) {
@@ -170,7 +219,7 @@ Result<std::vector<render::DrawnVolume>> ScenePainter::drawnVolumes(const Scene&
     for (VolumeRepresentation wanted : representations) {
         // A volume that is divided into parts has its shells in the parts.
         if (!details_.empty() && details_.front().isPart) wanted.shell.reset();
-        SVT_TRY(made, representation(wanted, spec));
+        SVT_TRY(made, representation(wanted, spec, scene.surfaces));
         drawn.push_back(*made);
     }
     if (details_.empty()) return drawn;
@@ -180,7 +229,7 @@ Result<std::vector<render::DrawnVolume>> ScenePainter::drawnVolumes(const Scene&
         for (const VolumeRepresentation& wanted : representations) {
             VolumeRepresentation own = wanted;
             if (!details_[d].isPart) own.shell.reset();
-            SVT_TRY(made, representationOf(d + 1, own, spec));
+            SVT_TRY(made, representationOf(d + 1, own, scene.surfaces, spec));
             drawn.push_back(*made);
         }
     }
@@ -233,6 +282,7 @@ Result<ScenePainter*> ScenePainter::apart(double distance) {
         apart_ = std::make_unique<Apart>(distance, std::move(*lifted), threads_);
     }
     apart_->painter.nothing_ = nothing_;
+    apart_->painter.makeFaces_ = makeFaces_;
     apart_->painter.progress_ = progress_;
     return &apart_->painter;
 }
@@ -241,7 +291,11 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
     if (scene.field)
         return Error(Code::BadArgument,
                      fmt::format("only the CPU draws the field '{}'; leave out --gl", scene.field->name));
-    return paintWith(scene, draw);
+    if (scene.surfaces == SurfaceSource::Exact)
+        return Error(Code::BadArgument, "only the CPU draws exact surfaces; leave out --surfaces exact or --gl");
+    Scene voxels = scene;
+    voxels.surfaces = SurfaceSource::Voxels;
+    return paintWith(voxels, draw);
 }
 
 Result<Painting> ScenePainter::paintWith(const Scene& scene, const Draw& draw) {
@@ -285,13 +339,16 @@ std::optional<analyze::SampleBox> ScenePainter::targetOf(const Scene& scene) con
 }
 
 Result<Painting> ScenePainter::paintPlain(const Scene& scene, const Draw& draw) {
+    SVT_DO(checkSurfaces(scene));
     const analyze::LabelRows rows(volume_, nothing_);
     ColorScale scale;
     SVT_TRY(spec, makeFrameSpec(scene, volume_, rows, &scale));
     const float gaps = mixtures_.empty() ? 0 : seenGaps(*spec, volume_.grid);
     for (render::Pass& pass : spec->passes) mix(mixtures_, spec->background, gaps, pass);
     SVT_TRY(drawn, drawnVolumes(scene, *spec));
-    return finish(scene, rows, std::move(scale), std::move(*spec), *drawn, draw);
+    SVT_TRY(painting, finish(scene, rows, std::move(scale), std::move(*spec), *drawn, draw));
+    if (scene.surfaces == SurfaceSource::Exact) painting->surfaces = countSurfaces();
+    return std::move(*painting);
 }
 
 Result<Painting> ScenePainter::paintDraft(const Scene& scene, const render::CastOptions& options) {

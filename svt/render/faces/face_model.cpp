@@ -2,6 +2,7 @@
 #include <svt/render/faces/face_data.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -33,6 +34,21 @@ bool isClosed(Triangles triangles) {
         if (sum != 0) return false;
     }
     return !triangles.empty();
+}
+
+// How many times as thick as a body must be to be as thick as a voxel; 1 for thicker ones. Its mean thickness is twice its
+// volume over its area.
+double thickeningOf(const volume::VectorParts& parts, Triangles triangles, double voxel) {
+    double area = 0, volume = 0;
+    for (const auto& triangle : triangles) {
+        const Vec3d base = toDouble(parts.points[triangles.front().corners[0]]);
+        const auto corner = [&](std::size_t c) { return toDouble(parts.points[triangle.corners[c]]) - base; };
+        const Vec3d across = cross(corner(1) - corner(0), corner(2) - corner(0)) * 0.5;
+        area += length(across);
+        volume += dot(corner(0), across) / 3;
+    }
+    const double thickness = area > 0 ? 2 * std::abs(volume) / area * parts.unit : 0;
+    return thickness > 0 ? std::max(1.0, voxel / thickness) : 1;
 }
 
 enum class Source : std::uint8_t { None, Voxels, Solid, Sheet, Skin, Material };
@@ -129,6 +145,8 @@ Result<std::unique_ptr<FaceModel>> FaceModel::make(const volume::SemanticVolume&
     data->objectOfVoxels.assign(volume.labels.scalarCount(), Data::kNobody);
     data->isSkinScalar.assign(volume.labels.scalarCount(), 0);
     Counts counts;
+    const Vec3d spacing = volume.grid.spacing();
+    const double voxel = std::max({spacing.x, spacing.y, spacing.z});
     std::vector<FaceTriangle> triangles;
     for (const std::uint32_t l : order) {
         if (l >= sources.size() || sources[l] == Source::None) continue;
@@ -143,6 +161,8 @@ Result<std::unique_ptr<FaceModel>> FaceModel::make(const volume::SemanticVolume&
             continue;
         }
         ++(isSolid ? counts.solids : counts.sheets);
+        if (sources[l] == Source::Solid)
+            data->objects.back().thickening = thickeningOf(parts, volume::trianglesOf(parts, l), voxel);
         if (sources[l] == Source::Skin) data->isSkinScalar[label.first] = 1;
         for (const auto& triangle : volume::trianglesOf(parts, l)) triangles.push_back({triangle.corners, object});
     }

@@ -166,6 +166,20 @@ TEST(FaceModel, TranslucentSheetsAbsorbLikeOneVoxel) {
     EXPECT_EQ(frame.color.at(2, 2).a, 0);
 }
 
+TEST(FaceModel, TranslucentBodiesAbsorbAtLeastLikeOneVoxel) {
+    const auto alphaOf = [](double thickness) {
+        BoxScene scene(0.5, {{{0.5, 1, 0.5}, {3.5, 1 + thickness, 3.5}}});
+        static_cast<void>(scene.make());
+        FrameSpec spec = frontOf({{{0, 0, 0}, 0.75f}});
+        spec.background.alpha = 0;
+        return scene.cast(spec).color.at(32, 20).a;
+    };
+    // The mean thickness of a pane of 3 m x 3 m x 0.1 m is twice its volume over its area.
+    const double thickness = 2 * 0.9 / (18 + 1.2);
+    EXPECT_NEAR(alphaOf(0.1), 255 * (1 - std::pow(0.25, 0.1 * 0.5 / thickness)), 1.5);
+    EXPECT_NEAR(alphaOf(2), 255 * (1 - std::pow(0.25, 2)), 1.5) << "a thick body absorbs along the way through it";
+}
+
 TEST(FaceModel, ObjectsWithoutClosedMeshKeepTheirVoxels) {
     BoxScene scene(0.5, {{{1.03, 1.07, 0.51}, {3.02, 2.94, 2.03}}});
     scene.volume.vectors.triangles.pop_back();

@@ -233,7 +233,7 @@ private:
         const double atFace = crossing != nullptr ? crossing->t : kNever;
         const double atVoxel = !voxels_.empty() ? voxels_.front().from : kNever;
         if (!(std::min(atFace, atVoxel) < to_)) {
-            visitor_.leave(owner_.scalar, start_, to_);
+            visitor_.leave(owner_.scalar, start_, absorbedTo(to_));
             return false;
         }
         return atVoxel <= atFace ? stepVoxels() : stepFaces(atFace);
@@ -300,11 +300,16 @@ private:
 
     bool moveTo(Owner owner, double t, const RunStart& start) {
         if (owner.scalar == owner_.scalar && !isAfterSheet_) return true;
-        if (!isAfterSheet_ && visitor_.leave(owner_.scalar, start_, t)) return false;
+        if (!isAfterSheet_ && visitor_.leave(owner_.scalar, start_, absorbedTo(t))) return false;
         isAfterSheet_ = false;
         owner_ = owner;
         start_ = t;
         return !visitor_.enter(owner.scalar, t, start);
+    }
+    // The end of the run up to t for the light that it absorbs.
+    [[nodiscard]] double absorbedTo(double t) const noexcept {
+        const double thickening = owner_.object == Data::kNobody ? 1 : data_.objects[owner_.object].thickening;
+        return thickening == 1 ? t : start_ + (t - start_) * thickening;
     }
     [[nodiscard]] std::uint32_t objectOf(const FaceCrossing& crossing) const noexcept {
         return data_.tree.triangle(crossing.triangle).object;

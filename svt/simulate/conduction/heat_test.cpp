@@ -1,5 +1,5 @@
 // Steady heat conduction against exact answers, and its findings.
-#include <svt/pipeline/labels.hpp>
+#include <svt/analyze/solid_overlaps.hpp>
 #include <svt/simulate/heat.hpp>
 #include <svt/simulate/materials/thermal_words.hpp>
 #include <svt/simulate/prism_model_test.hpp>
@@ -23,7 +23,7 @@ const std::vector<ThermalRule> kLayers{{"name=cover", 0, 0, 0},
                                        {"name=render", 0.9, 0, 0}};
 
 HeatResult run(const volume::SemanticVolume& volume, HeatOptions options) {
-    options.priority = pipeline::labelsByPriority(volume.labels);
+    options.priority = analyze::labelsByPriority(volume.labels);
     Diagnostics findings;
     auto result = simulateHeat(volume, options, findings);
     EXPECT_TRUE(result) << result.error().toString();

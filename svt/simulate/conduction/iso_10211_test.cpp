@@ -1,5 +1,5 @@
 // The four validation cases of ISO 10211 as models of blocks, built and simulated.
-#include <svt/pipeline/labels.hpp>
+#include <svt/analyze/solid_overlaps.hpp>
 #include <svt/simulate/heat.hpp>
 #include <svt/simulate/prism_model_test.hpp>
 
@@ -14,7 +14,7 @@ using test::blocksBetween;
 using test::buildPrisms;
 
 HeatResult simulated(const volume::SemanticVolume& volume, HeatOptions options) {
-    options.priority = pipeline::labelsByPriority(volume.labels);
+    options.priority = analyze::labelsByPriority(volume.labels);
     Diagnostics findings;
     auto result = simulateHeat(volume, options, findings);
     EXPECT_TRUE(result) << result.error().toString();

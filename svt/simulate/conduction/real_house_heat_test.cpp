@@ -1,7 +1,7 @@
 // The heat of the FZK-Haus, whose file states U-values and the temperatures of rooms.
+#include <svt/analyze/solid_overlaps.hpp>
 #include <svt/core/test_data_test.hpp>
 #include <svt/pipeline/build_volume.hpp>
-#include <svt/pipeline/labels.hpp>
 #include <svt/simulate/heat.hpp>
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ TEST(RealHouseHeat, IsThatOfItsTransmittances) {
     ASSERT_TRUE(built) << built.error().toString();
     const volume::SemanticVolume& volume = built->volume;
     HeatOptions options;
-    options.priority = pipeline::labelsByPriority(volume.labels);
+    options.priority = analyze::labelsByPriority(volume.labels);
     Diagnostics findings;
     const auto result = simulateHeat(volume, options, findings);
     ASSERT_TRUE(result) << result.error().toString();

@@ -1,5 +1,5 @@
 // Temperatures over time against exact series, steady states and sums of heat.
-#include <svt/pipeline/labels.hpp>
+#include <svt/analyze/solid_overlaps.hpp>
 #include <svt/simulate/heat_over_time.hpp>
 #include <svt/simulate/prism_model_test.hpp>
 
@@ -38,7 +38,7 @@ HeatOptions optionsOf(const SemanticVolume& volume, double room) {
     options.materials = {{"name=cover", 0, 0, 0}, {"name=wall", kConductivity, 1600, 1000}};
     options.resistances = {kFilm, kFilm, kFilm, kFilm};
     options.isLeaky = true;
-    options.priority = pipeline::labelsByPriority(volume.labels);
+    options.priority = analyze::labelsByPriority(volume.labels);
     return options;
 }
 

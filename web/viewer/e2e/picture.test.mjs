@@ -7,7 +7,7 @@ import { readPng } from "./png.mjs";
 import { withHouse } from "./visit.mjs";
 
 const { at, visit, open } = withHouse("picture");
-const { inPage, state, settled, stage, eventually } = visit;
+const { inPage, state, settled, stage, eventually, tool } = visit;
 
 describe("picture", () => {
   before(() => open());
@@ -169,6 +169,52 @@ describe("touch", () => {
     await fingers("touchEnd");
     await item.click();
     await eventually(async () => assert.ok((await inPage("s.selection.along"))?.stretches.length > 1));
+  });
+});
+
+describe("exact surfaces", () => {
+  before(() => open());
+
+  /** The source of the surfaces of the scenes that are drawn until the picture is fine. */
+  const drawnAfter = (change) =>
+    inPage(`(async () => {
+      const { engine } = s.volume, drawn = [], { draw } = engine;
+      engine.draw = (scene, ...size) => (drawn.push(scene), draw.call(engine, scene, ...size));
+      s.view.${change};
+      while (s.picture.quality !== "fine") await new Promise(requestAnimationFrame);
+      engine.draw = draw;
+      return drawn.map(({ surfaces }) => surfaces ?? null);
+    })()`);
+  const shown = () => visit.page.locator("svt-picture canvas").first().screenshot();
+
+  it("are those of pictures at rest, once their module is there; a switch ends them, also in saved pictures", async () => {
+    await visit.until("s.view.hasFaces");
+    await settled();
+    const drawn = await drawnAfter("turn({ ...s.view.state.camera })");
+    assert.deepEqual([drawn[0], drawn.at(-1)], ["voxels", null]);
+    assert.equal((await inPage("s.view.composed([320, 180])")).surfaces, undefined);
+    await tool("look");
+    await settled();
+    const exact = await shown();
+    await visit.page.locator("#exact-surfaces").uncheck();
+    await settled();
+    assert.notDeepEqual(await shown(), exact);
+    assert.equal((await inPage("s.view.composed([320, 180])")).surfaces, "voxels");
+    await visit.page.keyboard.press("Control+z");
+    await eventually(async () => assert.ok(await visit.page.locator("#exact-surfaces").isChecked()));
+    await settled();
+    assert.deepEqual(await shown(), exact);
+  });
+
+  it("are left out where the volume has no meshes", async () => {
+    svt("build", at("house.gml"), "-o", at("voxels.svt"), "--spacing", "0.12", "--vectors", "none");
+    await visit.choose({ name: "voxels.svt", bytes: readFileSync(at("voxels.svt")) });
+    await visit.until("s.volume.file === 'voxels.svt' && s.picture.report");
+    await settled();
+    assert.equal((await drawnAfter("turn({ ...s.view.state.camera })")).at(-1), "voxels");
+    await tool("look");
+    assert.ok(await visit.page.locator("#exact-surfaces").isDisabled());
+    assert.deepEqual(visit.problems, []);
   });
 });
 

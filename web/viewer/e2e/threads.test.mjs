@@ -19,12 +19,13 @@ const kScenes = {
   },
   edges: { passes: [{ hide: ["class=BuildingRoom"], lines: [{ select: "all" }] }] },
   sun: { sun: { time: "2026-06-21 15:00", place: [50, 8] } },
+  voxels: { surfaces: "voxels", passes: [{ cut: "y<5" }] },
 };
 let isolated, plain;
 
 before(async () => {
   svt("sample", "house", "-o", files.at("house.gml"));
-  svt("build", files.at("house.gml"), "-o", files.at("house.svt"), "--vectors", "edges");
+  svt("build", files.at("house.gml"), "-o", files.at("house.svt"), "--vectors", "edges,meshes");
   isolated = await svtServe(files.at("house.svt"));
   plain = await serve(models());
 });

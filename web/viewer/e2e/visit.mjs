@@ -87,8 +87,13 @@ export class Visit {
     );
   state = () => this.inPage("s.view.state");
   firstImage = () => this.page.waitForFunction(() => performance.getEntriesByName("svt-first-image").length > 0);
-  /** The finest picture of what is shown now stands there. */
-  settled = () => this.page.waitForFunction(() => document.querySelector("svt-app").session.picture.quality === "fine");
+  /** The finest picture stands there, with the faces of the model if it has any, and no movement of the camera is about to begin. */
+  settled = () =>
+    this.page.waitForFunction(() => {
+      const { picture, view, volume } = document.querySelector("svt-app").session;
+      const mayHaveFaces = volume.info?.hasMeshes && !volume.isCity && !volume.isServerOnly;
+      return globalThis.svtAwaitedCameras === 0 && picture.quality === "fine" && (view.hasFaces || !mayHaveFaces);
+    });
   /** Where the picture is. */
   stage = () => this.page.locator("svt-picture").boundingBox();
   /** Waits until an expression of the session `s` holds. */

@@ -288,11 +288,11 @@ export const kCalls = {
   /** Plans, sections, elevations and tables on sheets, as SVG documents; as in `svt sheets`. */
   sheets: call<(language: "en" | "de") => string[]>(),
   /**
-   * Loads the font, and the part of the library that reads models and makes drawings and sheets, for later calls, also
-   * without a connection. Without this call they are loaded when they are needed. Does nothing if the browser is to
-   * save data.
+   * Loads the font, and the part of the library that reads models, draws exact surfaces, and makes drawings and sheets, for
+   * later calls, also without a connection. Without this call they are loaded when they are needed. Resolves to whether the
+   * part is there: not if the browser is to save data. Other calls are answered meanwhile.
    */
-  prepare: call<() => null>(),
+  prepare: call<() => boolean>(),
   /** The volume that followCity() has opened, with its features; null: nothing is open. The worker answers without the library. */
   cityInfo: call<() => VolumeInfo | null>(),
 };

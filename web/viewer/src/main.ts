@@ -56,10 +56,8 @@ function loadComponents(): void {
   });
 }
 
-/** Loads the rest of the library once a picture is fine. Cities need it only for models that are opened later. */
-void until(() => session.picture.quality === "fine" && !session.volume.isCity).then(() =>
-  session.volume.engine?.prepare().catch(() => undefined),
-);
+/** Loads the rest of the library once a picture is fine; then pictures have faces. Cities need it only for models opened later. */
+void until(() => session.picture.quality === "fine" && !session.volume.isCity).then(() => session.prepareFaces());
 /** Loads the other scripts, so that the page then needs no connection. A page in one text contains them (svtModuleOf). */
 void until(() => session.picture.quality === "fine").then(async () => {
   if (!("svtModuleOf" in self) && !(navigator as { connection?: { saveData?: boolean } }).connection?.saveData)

@@ -35,4 +35,11 @@ export class Session {
     this.picture.start(engine, (error) => void this.model.reopen(error));
     if (this.model.status === "starting") this.model.status = "empty";
   }
+
+  /** Loads the rest of the library; from then on, a picture at rest shows the faces of the model. */
+  async prepareFaces(): Promise<void> {
+    const { view, volume } = this;
+    view.hasFaces = (await volume.engine?.prepare().catch(() => false)) ?? false;
+    if (view.hasFaces) view.redraw();
+  }
 }

@@ -300,6 +300,7 @@ const kTexts = {
   look_blueprint: ["Blueprint", "Blaupause"],
   look_dark: ["Dark", "Dunkel"],
   wireframe: ["Edges of the model", "Kanten des Modells"],
+  exactSurfaces: ["Exact surfaces", "Genaue Flächen"],
   wireframe_off: ["Off", "Aus"],
   wireframe_faint: ["Hidden faint", "Verdeckte blass"],
   wireframe_dashed: ["Hidden dashed", "Verdeckte gestrichelt"],
@@ -427,6 +428,8 @@ export const kGermanHelp = {
   "width and height": "Breite und Höhe",
   "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)":
     "Farben, Linien und Schraffuren des ganzen Bildes: schlicht, Papier (für den Druck), Blaupause oder dunkel (für Folien)",
+  "the source of the labels: the voxels, or the faces of the model, which are exact at any spacing, but take up to a few times as long":
+    "woraus das Bild entsteht: aus den Voxeln oder aus den Flächen des Modells, die bei jeder Auflösung genau sind, aber bis zu einige Male so lange dauern",
   "named view from which the picture is taken": "benannte Ansicht, aus der das Bild aufgenommen wird",
   "write a title into the picture": "schreibt einen Titel ins Bild",
   "parallel projection": "Parallelprojektion",

@@ -33,8 +33,9 @@ export class PictureLoop {
   private isRunning = false;
   private changedAt = 0;
   private timer = 0;
-  /** Time of the last picture at full resolution. */
+  /** Time of the last picture at full resolution: with one ray per pixel, and with all. */
   private fullMilliseconds = 0;
+  private fineMilliseconds = 0;
 
   constructor(private readonly host: PictureHost) {}
 
@@ -79,7 +80,7 @@ export class PictureLoop {
   }
 
   private afterFull(still: number): Quality | number {
-    const after = Math.min(kFineAfterSlow, Math.max(kFineAfter, this.fullMilliseconds));
+    const after = Math.min(kFineAfterSlow, Math.max(kFineAfter, this.fullMilliseconds, this.fineMilliseconds));
     return still < after ? after - still : "fine";
   }
 
@@ -96,6 +97,7 @@ export class PictureLoop {
       const report = await engine.draw(scene, size[0], size[1]);
       if (!report) return;
       if (quality === "full") this.fullMilliseconds = report.milliseconds;
+      if (quality === "fine") this.fineMilliseconds = report.milliseconds;
       if (quality === "moving") this.resolution.learn(report.milliseconds);
       // Later changes are not in this picture.
       this.host.shown(report, this.quality === quality ? quality : "moving", token);

@@ -90,6 +90,7 @@ export function givenBy(attributes: Attributes, look: ChoiceOf<"/look">): Given 
     hatches: attributes("hatch") === null ? null : reader.flag("hatch"),
     ...effect,
     shell: reader.choice("shell", kSceneMembers["/passes/*/shell"].choices),
+    surfaces: reader.choice("surfaces", kSceneMembers["/surfaces"].choices),
     wireframe: linesOf(reader),
     named: reader.queries("names"),
     colorBy: reader.text("color-by"),

@@ -18,7 +18,21 @@ export { SvtError };
 /** Attributes with a text. Each has a property of its name in camel case. */
 const kTexts = [
   ...["src", "poster", "alt", "loading", "controls", "theme", "camera", "around", "eye", "target", "fov", "section", "cut"],
-  ...["show", "hide", "color", "opacity", "color-by", "highlight", "cutaway", "lens", "context", "shell", "hidden-lines", "names"],
+  ...[
+    "show",
+    "hide",
+    "color",
+    "opacity",
+    "color-by",
+    "highlight",
+    "cutaway",
+    "lens",
+    "context",
+    "shell",
+    "surfaces",
+    "hidden-lines",
+    "names",
+  ],
   ...["look", "background"],
 ] as const;
 /** Attributes that are on or off. */
@@ -61,6 +75,7 @@ export class SvtViewer extends Base {
   declare lens: string;
   declare context: string;
   declare shell: string;
+  declare surfaces: string;
   declare hiddenLines: string;
   declare names: string;
   declare look: string;

@@ -138,6 +138,7 @@ export class Viewing {
     if (!this.isOpen) return;
     const changes = changesOf(before.view, given.view);
     if (Object.keys(changes).length) session.view.set(changes);
+    this.prepareFaces();
     if (!hasOtherCamera(before, given)) return;
     session.view.framing = given.framing;
     if (given.camera) session.view.moveTo(given.camera);
@@ -231,6 +232,13 @@ export class Viewing {
     this.isLoaded = true;
     this.host.frame.isShown = true;
     this.host.send("load", { info, threads: engine.threads });
+    this.prepareFaces();
+  }
+
+  /** Loads the part of the library that draws faces, if they are wanted. */
+  private prepareFaces(): void {
+    const { session, given } = this;
+    if (given.view.surfaces === "exact" && this.isLoaded && !session.view.hasFaces) void session.prepareFaces();
   }
 
   /** At most one event per frame. */

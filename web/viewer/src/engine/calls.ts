@@ -23,9 +23,13 @@ export function openFiles(svt: SvtModule, files: readonly FileBytes[], options: 
 const kMediaType = "mimetypeapplication/vnd.svt+zip";
 const kMediaTypeAt = 30;
 
-/** Whether a call needs the whole module: it reads a model, or makes a drawing. */
-export function needsWhole(name: string, args: readonly unknown[]): boolean {
+/**
+ * Whether a call needs the whole module: it reads a model, makes a drawing, or draws the faces of the model.
+ * @param hasMeshes  the open volume has faces
+ */
+export function needsWhole(name: string, args: readonly unknown[], hasMeshes: boolean): boolean {
   if (name === "open") return !(args[0] as readonly FileBytes[]).every(isVolume);
+  if (name === "draw" || name === "picture" || name === "labels") return hasMeshes && (args[0] as Scene).surfaces !== "voxels";
   return name === "drawing" || name === "sheets";
 }
 

@@ -132,7 +132,7 @@ export class Drawer {
   private isGlFaster({ scene, width, height }: Last): boolean {
     const scale = Math.min(1, trialWidth / width);
     const size: [number, number] = [Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale))];
-    const small: Scene = { ...scene, samples: 1, size };
+    const small: Scene = { ...scene, surfaces: "voxels", samples: 1, size };
     if (!this.drawGl(small, ...size, true)) return false;
     const byGl = this.drawGl(small, ...size, true);
     const start = performance.now();

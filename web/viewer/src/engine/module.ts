@@ -92,12 +92,14 @@ export function loadWhole(onProgress: OnProgress): Promise<SvtModule> {
   });
 }
 
-/** Begins to load the whole module for later. False: the browser is to save data. */
-export function prepareWhole(): boolean {
+/** Loads the whole module for later. Resolves to false if it cannot be loaded, or if the browser is to save data. */
+export async function prepareWhole(): Promise<boolean> {
   const { connection } = navigator as { connection?: { saveData?: boolean } };
   if (connection?.saveData) return false;
-  begin("whole").catch(() => undefined);
-  return true;
+  return begin("whole").then(
+    () => true,
+    () => false,
+  );
 }
 
 /** Counts the bytes of a copy of the response, so that the browser can keep the code that it compiles from the original. */

@@ -17,7 +17,12 @@ let loaded = loadModule("view", onProgress, (received, all) => post({ received, 
 loaded.catch(() => undefined);
 let isWhole = false;
 /** The open volume, from which the whole module continues. */
-let opened: { files: Calls["open"]["args"][0]; options: Calls["open"]["args"][1]; owners: Calls["owners"]["args"] | null } | null = null;
+let opened: {
+  files: Calls["open"]["args"][0];
+  options: Calls["open"]["args"][1];
+  owners: Calls["owners"]["args"] | null;
+  hasMeshes: boolean;
+} | null = null;
 
 let drawer: Drawer | null = null;
 /** Id of the current request. */
@@ -33,6 +38,13 @@ function post(answer: Answer, transfer: Transferable[] = []): void {
 
 function drawerOf(svt: SvtModule): Drawer {
   return (drawer ??= new Drawer(svt, null));
+}
+
+/** Loads what later calls need. Resolves to true if the whole module is there. */
+async function prepare(drawer: Drawer): Promise<boolean> {
+  const isThere = isWhole || (await prepareWhole());
+  if (isThere && !isWhole) await drawer.fontBytes().catch(() => undefined);
+  return isThere;
 }
 
 /** The whole module with the open volume in place of the module that draws only. */
@@ -58,7 +70,7 @@ async function answer(request: Request): Promise<void> {
   await loaded;
   if (stopped) throw stopped;
   current = id;
-  const isTooMuch = !isWhole && needsWhole(name, args);
+  const isTooMuch = !isWhole && needsWhole(name, args, opened?.hasMeshes ?? false);
   if (isTooMuch && name !== "open") await continueInWhole();
   const svt = await loaded;
   switch (name) {
@@ -71,7 +83,7 @@ async function answer(request: Request): Promise<void> {
       const info = openFiles(own, ...args);
       drawerOf(svt).forgetPicture();
       if (own !== svt) await adopt(own);
-      else if (!isWhole) opened = { files: args[0], options: args[1], owners: null };
+      else if (!isWhole) opened = { files: args[0], options: args[1], owners: null, hasMeshes: info.hasMeshes };
       return post({ id, result: info });
     }
     case "draw": {
@@ -84,11 +96,9 @@ async function answer(request: Request): Promise<void> {
       opened = null;
       return post({ id, result: json(svt.call(name, args)) });
     case "prepare":
-      if (!isWhole && prepareWhole())
-        await drawerOf(svt)
-          .fontBytes()
-          .catch(() => undefined);
-      return post({ id, result: null });
+      // Other requests do not wait for the module.
+      void prepare(drawerOf(svt)).then((result) => post({ id, result }));
+      return;
     case "cityInfo":
       return post({ id, result: cityInfo });
     case "cityLook": {

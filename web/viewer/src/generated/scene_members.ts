@@ -8,6 +8,7 @@ export const kSceneMembers = {
   "/version": { type: "whole", minimum: 1, maximum: 1, help: "version of the format" },
   "/size": { type: "whole", unit: "pixels", minimum: 1, maximum: 16384, default: [1280, 720], help: "width and height" },
   "/samples": { type: "whole", minimum: 1, maximum: 16, choices: [1, 4, 9, 16], default: 4, option: "--samples", group: "View", help: "rays per pixel" },
+  "/surfaces": { type: "text", choices: ["voxels", "exact"], option: "--surfaces", group: "Style", help: "the source of the labels: the voxels, or the faces of the model, which are exact at any spacing, but take up to a few times as long" },
   "/look": { type: "text", choices: ["plain", "paper", "blueprint", "dark"], default: "plain", option: "--look", group: "Style", help: "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)" },
   "/title": { type: "text", option: "--title", group: "Illustrate", help: "write a title into the picture" },
   "/scaleBar": { type: "flag", default: false, option: "--scale-bar", group: "Illustrate", help: "draw a scale bar; parallel projection only, because no other picture has a single scale" },
@@ -89,6 +90,7 @@ export interface Scene { format?: "svt-scene";
   version?: number;
   size?: [number, number];
   samples?: 1 | 4 | 9 | 16;
+  surfaces?: "voxels" | "exact";
   look?: "plain" | "paper" | "blueprint" | "dark";
   title?: string;
   scaleBar?: boolean;

@@ -11,6 +11,8 @@ import { ViewPart, type ViewParts } from "./view_part";
 
 /** Code of errors after which the library has no volume. */
 const kFatal = "E999";
+/** Code of the error that a part of the library cannot be loaded. */
+const kNotLoaded = "E101";
 const kMostRefusals = 3;
 
 export class ShownPicture extends ViewPart {
@@ -49,7 +51,9 @@ export class ShownPicture extends ViewPart {
       describe: (size, samples, quality) => {
         if (!volume.info) return null;
         const described = view.describe(size, samples, true);
-        return quality === "moving" ? withVoxels(described) : described;
+        if (quality === "moving") return withVoxels(described);
+        // A graphics card draws voxels at once; faces are drawn by the CPU.
+        return quality === "fine" && this.report?.engine !== "webgl2" ? described : withoutFaces(described);
       },
       take: () => view.state,
       shown: (report, quality, token) => this.shown(report, quality, token as ViewState),
@@ -57,6 +61,10 @@ export class ShownPicture extends ViewPart {
         if (error.code === kFatal) {
           this.messages.fail(error);
           died(error);
+        } else if (error.code === kNotLoaded && view.hasFaces) {
+          // Another worker has begun, without a connection: voxels remain.
+          view.hasFaces = false;
+          view.redraw();
         } else this.refuse(error, token as ViewState);
       },
     });
@@ -138,5 +146,10 @@ export class ShownPicture extends ViewPart {
  * a fifth of the time, and the picture gets more pixels.
  */
 function withVoxels({ scene, effects }: Described): Described {
-  return { scene: { ...scene, passes: (scene.passes ?? [{}]).map((pass) => ({ level: 0, ...pass })) }, effects };
+  const passes = (scene.passes ?? [{}]).map((pass) => ({ level: 0, ...pass }));
+  return withoutFaces({ scene: { ...scene, passes }, effects });
+}
+
+function withoutFaces({ scene, effects }: Described): Described {
+  return { scene: { ...scene, surfaces: "voxels" }, effects };
 }

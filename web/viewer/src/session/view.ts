@@ -63,6 +63,8 @@ export class View extends Observable {
   isSquare = false;
   isWalking = false;
   isLegendShown = false;
+  /** The part of the library that draws the faces of the model is there. */
+  hasFaces = false;
   /** Grows with each change that redraws the picture. */
   revision = 0;
   /** How the first camera is fitted, from the direction of `state.preset`. */
@@ -108,7 +110,10 @@ export class View extends Observable {
     return this.selectedNow.value;
   }
 
-  /** @param isOnScreen  selected features are tinted, colours have the legend of the page, and the ground is visible: as nowhere else */
+  /**
+   * @param isOnScreen  selected features are tinted, colours have the legend of the page, and the ground is visible: as nowhere
+   *     else. The faces of the model are visible only if `hasFaces`; saved pictures load the whole module for them.
+   */
   describe(size: [number, number], samples?: Samples, isOnScreen = false, state = this.state): Described {
     const described = sceneOf(state, this.volume.box, size, samples);
     if (this.hasSwitches && !state.custom) {
@@ -121,6 +126,7 @@ export class View extends Observable {
         return withSpaces(styled, this.volume.index, hidden, isAsked);
       });
     }
+    if (isOnScreen && !this.showsFaces) described.scene.surfaces = "voxels";
     if (isOnScreen) {
       // The page has its own legend, whose text does not depend on the number of pixels.
       if (this.hasSwitches && state.colorBy && !state.custom) described.scene.legend = false;
@@ -129,6 +135,12 @@ export class View extends Observable {
     // Tiles of a city fit the pixels. Levels of detail of the tiles would cost time and memory without benefit.
     if (this.volume.isCity) described.scene.passes = described.scene.passes!.map((pass) => ({ level: 0, ...pass }));
     return described;
+  }
+
+  /** Whether pictures on the screen may have the faces of the model. */
+  private get showsFaces(): boolean {
+    const { info, isCity } = this.volume;
+    return this.hasFaces && !isCity && (info?.hasMeshes ?? false);
   }
 
   /** Whether selected features are tinted: not in effects, and not over colours that have a meaning. */
@@ -412,6 +424,7 @@ const kStepNames: Partial<Record<keyof ViewState, TextKey>> = {
   lens: "lens",
   focus: "focus",
   shell: "shell",
+  surfaces: "exactSurfaces",
   wireframe: "wireframe",
   names: "names",
   named: "names",

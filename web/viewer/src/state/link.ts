@@ -106,7 +106,14 @@ export function restored(value: unknown): ViewState {
   return state as unknown as ViewState;
 }
 
-const kNullable: Record<string, string> = { camera: "object", hatches: "boolean", shell: "string", wireframe: "string", custom: "object" };
+const kNullable: Record<string, string> = {
+  camera: "object",
+  hatches: "boolean",
+  shell: "string",
+  surfaces: "string",
+  wireframe: "string",
+  custom: "object",
+};
 
 function isLike(initial: unknown, given: unknown, key: string): boolean {
   if (key === "sun") return given === null || isSun(given);

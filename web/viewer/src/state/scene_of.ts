@@ -122,6 +122,7 @@ export function sceneOf(
 ): Described {
   const scene: Scene = { format: "svt-scene", version: 1, size, samples };
   if (state.look !== kSceneMembers["/look"].default) scene.look = state.look;
+  if (state.surfaces) scene.surfaces = state.surfaces;
   const camera = sceneCamera(state.camera, box, size[0] / size[1], state.preset);
   scene.camera = camera;
   if (state.hatches !== null) scene.hatches = { show: state.hatches };

@@ -1,7 +1,7 @@
 /** The complete view as one plain object. `sceneOf()` makes a scene from it; tools modify only this object. */
 
 import type { CameraPreset, Context, HiddenLines, Look, Point, Scene, SceneStyle, ShellLevel } from "../engine";
-import { kSceneMembers, type DeclaredMember, type SceneMember } from "../generated/scene_members";
+import { kSceneMembers, type ChoiceOf, type DeclaredMember, type SceneMember } from "../generated/scene_members";
 import type { PlainMember } from "./member_controls";
 
 /** The up direction is z, except in views straight down or up: there it is the grid's y axis. */
@@ -70,6 +70,8 @@ export interface ViewState {
   lens: Lens;
   focus: Focus;
   shell: ShellLevel | null;
+  /** The source of the labels; null: the faces of the model, if it has meshes. */
+  surfaces: ChoiceOf<"/surfaces"> | null;
   /** null: no lines. */
   wireframe: HiddenLines | null;
   /** Names of selected features beside the picture. */
@@ -107,6 +109,7 @@ export function initialState(look: Look = kSceneMembers["/look"].default): ViewS
     lens: { x: 0.5, y: 0.5, radius: 0.25, pinned: false, context: "ghost" },
     focus: { query: "", context: "ghost", margin: 0.15 },
     shell: null,
+    surfaces: null,
     wireframe: null,
     names: false,
     named: [],

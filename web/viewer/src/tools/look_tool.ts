@@ -28,8 +28,9 @@ export class LookTool extends Part {
 
   override render() {
     const { session } = this;
-    const { look, wireframe, names, picture } = session.view.now;
+    const { look, wireframe, names, picture, surfaces } = session.view.now;
     const hasEdges = session.volume.info?.hasEdges ?? false;
+    const hasMeshes = !session.volume.isCity && (session.volume.info?.hasMeshes ?? false);
     return html`
       <div class="segments" role="radiogroup" aria-label=${t("look")} title=${help("/look")}>${kLooks.map(
         (wanted) =>
@@ -46,6 +47,7 @@ export class LookTool extends Part {
       <div class="row">
         <label class="check" title=${help("/names")}><input type="checkbox" id="names" .checked=${names} @change=${(e: Event) => session.view.set({ names: (e.target as HTMLInputElement).checked })} />${t("names")}</label>
         <label class="check"><input type="checkbox" id="legend" .checked=${session.view.isLegendShown} @change=${(e: Event) => (session.view.isLegendShown = (e.target as HTMLInputElement).checked)} />${t("legend")}</label>
+        <label class="check" title=${help("/surfaces")}><input type="checkbox" id="exact-surfaces" ?disabled=${!hasMeshes} .checked=${hasMeshes && surfaces !== "voxels"} @change=${(e: Event) => session.view.set({ surfaces: (e.target as HTMLInputElement).checked ? null : "voxels" })} />${t("exactSurfaces")}</label>
       </div>
       ${colorChoice(session)}
       <svt-sun-choice .session=${session}></svt-sun-choice>
