@@ -8,7 +8,7 @@
 ///     label       -   | wall        | room    | wall | -        the object of the highest priority
 ///
 /// A closed object owns the points that its winding number puts inside it. A surface without inside has a label only on
-/// its triangles. Where several objects contain a point, the one with the highest priority owns it: the rule by which voxels get
+/// its triangles, and so has a closed object where it is thinner than 0.1 mm. Where several objects contain a point, the one with the highest priority owns it: the rule by which voxels get
 /// their labels (voxelize.hpp), evaluated along the ray. So the faces of a picture do not depend on the spacing.
 ///
 /// Voxels still give the labels of objects without closed mesh: open shells, thematic bodies, objects with patterns.

@@ -166,6 +166,17 @@ TEST(FaceModel, TranslucentSheetsAbsorbLikeOneVoxel) {
     EXPECT_EQ(frame.color.at(2, 2).a, 0);
 }
 
+TEST(FaceModel, ClosedObjectsWithoutThicknessAreMetAsSurfaces) {
+    for (const double thickness : {0.0, 2e-5, 5e-4}) {
+        BoxScene scene(0.5, {{{1, 1.3, 1}, {3, 1.3 + thickness, 3}}});
+        EXPECT_EQ(scene.make().counts().solids, 1u);
+        const Frame frame = scene.cast(frontOf({kRed}));
+        EXPECT_EQ(frame.label.at(32, 32), 1u) << thickness;
+        EXPECT_NEAR(double(frame.depth.at(32, 32)), 1.3 - kEyeY, 1e-5);
+        EXPECT_EQ(frame.label.at(4, 32), 0u);
+    }
+}
+
 TEST(FaceModel, TranslucentBodiesAbsorbAtLeastLikeOneVoxel) {
     const auto alphaOf = [](double thickness) {
         BoxScene scene(0.5, {{{0.5, 1, 0.5}, {3.5, 1 + thickness, 3.5}}});

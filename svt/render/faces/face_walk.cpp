@@ -36,6 +36,11 @@ public:
             }
         windings_.emplace_back(object, step);
     }
+    [[nodiscard]] int winding(std::uint32_t object) const noexcept {
+        for (const auto& [known, winding] : windings_)
+            if (known == object) return winding;
+        return 0;
+    }
     // The object of the highest priority; kNobody if there is none.
     [[nodiscard]] std::uint32_t first() const noexcept {
         std::uint32_t best = Data::kNobody;
@@ -274,13 +279,13 @@ private:
         return moveTo(after, t, RunStart{ray_.voxelAt(t, dimension_), volume::BrickVolume::kNoPlane, false, &normal});
     }
 
-    // Meets the sheet of the highest priority, if it has a higher one than the object behind its face. Returns false if
+    // Meets the surface of the highest priority, if it has a higher one than the object behind its face. Returns false if
     // the visitor ends the walk.
     bool crossSheet(double t, Owner before, Owner after) {
         const FaceCrossing* sheet = nullptr;
         for (const FaceCrossing& crossing : here_) {
             const std::uint32_t object = objectOf(crossing);
-            if (data_.objects[object].isSolid || !visitor_.isDrawn(data_.objects[object].scalar)) continue;
+            if (!visitor_.isDrawn(data_.objects[object].scalar) || !isSheetHere(object)) continue;
             const std::uint32_t behind = (crossing.isEntry ? after : before).object;
             if (object > behind || (isMaterial(behind) && data_.objects[object].isSkin)) continue;
             if (sheet == nullptr || object < objectOf(*sheet)) sheet = &crossing;
@@ -296,6 +301,19 @@ private:
         if (visitor_.leave(owner_.scalar, t, t + 1 / voxelsPerT)) return false;
         isAfterSheet_ = true;
         return true;
+    }
+
+    // Whether an object is a surface in this place: also a closed one that begins and ends here.
+    [[nodiscard]] bool isSheetHere(std::uint32_t object) const noexcept {
+        if (!data_.objects[object].isSolid) return true;
+        if (here_.size() < 2 || data_.objects[object].isMaterial || inside_.winding(object) > 0) return false;
+        int entries = 0, sum = 0;
+        for (const FaceCrossing& crossing : here_) {
+            if (objectOf(crossing) != object) continue;
+            entries += crossing.isEntry ? 1 : 0;
+            sum += crossing.isEntry ? 1 : -1;
+        }
+        return entries > 0 && sum == 0;
     }
 
     bool moveTo(Owner owner, double t, const RunStart& start) {
