@@ -36,9 +36,11 @@ def rows_of_commands(program, data, repeat):
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         volume, patterned, picture = (Path(folder) / name for name in ("house.svt", "patterned.svt", "house.png"))
+        render = ["render", volume, "-o", picture, "--size", "1280x720", "--samples", "1"]
         for name, command, result, times in [
             ("svt build", ["build", house, "-o", volume, "--dimension", GRID], volume, repeat),
-            ("svt render", ["render", volume, "-o", picture, "--size", "1280x720", "--samples", "1"], picture, repeat),
+            ("svt render", [*render, "--surfaces", "voxels"], picture, repeat),
+            ("svt render with faces", render, picture, repeat),
             (
                 "svt build --patterns",
                 ["build", house, "-o", patterned, "--spacing", "0.02", "--patterns"],

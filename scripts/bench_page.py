@@ -68,7 +68,7 @@ GOALS = [
         False,
     ),
     (
-        "`svt render` of a `.svt`, the whole command, 1280 x 720, one ray a pixel",
+        "`svt render` of a `.svt` with voxels, the whole command, 1280 x 720, one ray a pixel",
         lambda r, h: only(h, lambda: r["command/svt-render"]["ours"]["median_s"]),
         "{:.3f} s",
         0.10,

@@ -108,6 +108,8 @@ def draw(volume, scene, folder, name, extra=()):
         paths[2],
         "--level",
         0,
+        "--surfaces",
+        "voxels",
         "-q",
         *extra,
     )

@@ -337,13 +337,15 @@ test("a real house is the same", { skip: !existsSync(real) && `no ${real}` }, ()
   comparePictures(at("real.svt"), ["plain", "cut"]);
 });
 
-test("the module that draws gives the same pictures, and names what it lacks", async () => {
+test("the module that draws gives the same pictures of voxels, and names what it lacks", async () => {
   const { default: createView } = await import(pathToFileURL(join(moduleFolder, "svt_view.js")).href);
   const view = await createView({ wasmBinary: readFileSync(join(moduleFolder, "svt_view.wasm")) });
   open(houseVolume);
   view.call("open", ["house.svt"], readFileSync(houseVolume));
-  const scene = { size: [320, 200], ...kScenes.cut };
+  const scene = { size: [320, 200], ...kScenes.cut, surfaces: "voxels" };
   assert.ok(Buffer.from(view.call("picture", [scene])).equals(bytes("picture", scene)));
+  assert.ok(!bytes("picture", { ...scene, surfaces: "exact" }).equals(bytes("picture", scene)));
+  assert.throws(() => view.call("picture", [{ ...scene, surfaces: "exact" }]), { code: "E904", message: /not available here/ });
   assert.throws(() => view.call("open", ["house.gml"], readFileSync(houseModel)), { code: "E904", message: /reads no models/ });
   for (const name of ["drawing", "sheets"]) assert.throws(() => view.call(name, []), { code: "E904" }, name);
   assert.ok(Buffer.from(view.call("picture", [scene])).equals(bytes("picture", scene)), "the volume stays open");

@@ -164,7 +164,7 @@ bool isEmpty(const render::Frame& frame) {
 pipeline::BuildOptions withVectors(const RenderArguments& arguments, const illustrate::Scene& scene) {
     pipeline::BuildOptions build = arguments.build;
     if (illustrate::drawsFaces(scene) && !arguments.gl) {
-        // Faces are shown if there are any, unless they are wanted.
+        // Without --surfaces exact, voxels replace meshes that lie too far away to be stored.
         const bool isWanted = scene.surfaces.has_value() || build.vectors.edges || build.vectors.meshes;
         build.vectors.isRequired = build.vectors.isRequired && isWanted;
         build.vectors.meshes = true;

@@ -87,12 +87,12 @@ export class Visit {
     );
   state = () => this.inPage("s.view.state");
   firstImage = () => this.page.waitForFunction(() => performance.getEntriesByName("svt-first-image").length > 0);
-  /** The finest picture stands there, with the faces of the model if it has any, and no movement of the camera is about to begin. */
+  /** The finest picture stands there, with the faces of the model if they can be drawn, and no movement of the camera is about to begin. */
   settled = () =>
     this.page.waitForFunction(() => {
       const { picture, view, volume } = document.querySelector("svt-app").session;
       const mayHaveFaces = volume.info?.hasMeshes && !volume.isCity && !volume.isServerOnly;
-      return globalThis.svtAwaitedCameras === 0 && picture.quality === "fine" && (view.hasFaces || !mayHaveFaces);
+      return globalThis.svtAwaitedCameras === 0 && picture.quality === "fine" && (view.hasFaces !== null || !mayHaveFaces);
     });
   /** Where the picture is. */
   stage = () => this.page.locator("svt-picture").boundingBox();

@@ -5,7 +5,7 @@ import "./ui/theme.css";
 import "./app";
 import type { App } from "./app";
 import { openFiles, openKept, openModel } from "./opening";
-import { effect, until } from "./observable";
+import { effect, untracked, until } from "./observable";
 import { Session } from "./session";
 import { stateOfHash } from "./state/link";
 import { initialState, type ViewState } from "./state/view_state";
@@ -57,7 +57,9 @@ function loadComponents(): void {
 }
 
 /** Loads the rest of the library once a picture is fine; then pictures have faces. Cities need it only for models opened later. */
-void until(() => session.picture.quality === "fine" && !session.volume.isCity).then(() => session.prepareFaces());
+effect(() => {
+  if (session.picture.quality === "fine" && !session.volume.isCity) untracked(() => void session.prepareFaces());
+});
 /** Loads the other scripts, so that the page then needs no connection. A page in one text contains them (svtModuleOf). */
 void until(() => session.picture.quality === "fine").then(async () => {
   if (!("svtModuleOf" in self) && !(navigator as { connection?: { saveData?: boolean } }).connection?.saveData)

@@ -1,6 +1,6 @@
 /** The state of the page in parts. They are made in this order: a part knows only parts above it. */
 
-import type { Engine } from "./engine";
+import type { Engine, VolumeInfo } from "./engine";
 import { Languages } from "./languages";
 import { effect, untracked } from "./observable";
 import { Address } from "./session/address";
@@ -22,6 +22,8 @@ export class Session {
   readonly picture = new ShownPicture(this);
   readonly address = new Address(this.volume, this.view);
   readonly model = new Model(this);
+  /** The model that was open when the library was last prepared; the next one tries again after a failure. */
+  private preparedFor: VolumeInfo | null = null;
 
   constructor() {
     effect(() => {
@@ -39,7 +41,14 @@ export class Session {
   /** Loads the rest of the library; from then on, a picture at rest shows the faces of the model. */
   async prepareFaces(): Promise<void> {
     const { view, volume } = this;
-    view.hasFaces = (await volume.engine?.prepare().catch(() => false)) ?? false;
-    if (view.hasFaces) view.redraw();
+    if (view.hasFaces || this.preparedFor === volume.info || !volume.engine) return;
+    this.preparedFor = volume.info;
+    try {
+      view.hasFaces = await volume.engine.prepare();
+      if (view.hasFaces) view.redraw();
+    } catch {
+      // The worker was replaced meanwhile: the next call tries again.
+      this.preparedFor = null;
+    }
   }
 }

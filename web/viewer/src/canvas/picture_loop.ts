@@ -80,7 +80,7 @@ export class PictureLoop {
   }
 
   private afterFull(still: number): Quality | number {
-    const after = Math.min(kFineAfterSlow, Math.max(kFineAfter, this.fullMilliseconds, this.fineMilliseconds));
+    const after = Math.min(kFineAfterSlow, Math.max(kFineAfter, this.fullMilliseconds, this.fineMilliseconds / 2));
     return still < after ? after - still : "fine";
   }
 

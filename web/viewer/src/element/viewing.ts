@@ -238,7 +238,7 @@ export class Viewing {
   /** Loads the part of the library that draws faces, if they are wanted. */
   private prepareFaces(): void {
     const { session, given } = this;
-    if (given.view.surfaces === "exact" && this.isLoaded && !session.view.hasFaces) void session.prepareFaces();
+    if (given.view.surfaces === "exact" && this.isLoaded) void session.prepareFaces();
   }
 
   /** At most one event per frame. */

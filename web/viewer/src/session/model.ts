@@ -42,8 +42,6 @@ export class Model extends ViewPart {
   source: Source | null = null;
   private openedWith: OpenOptions = {};
   private restartedAt = -Infinity;
-  /** The page shows a model that is no longer open in the library. */
-  private hasLostVolume = false;
   /** The library is reading the model that is being opened. */
   private isReading = false;
 
@@ -68,7 +66,7 @@ export class Model extends ViewPart {
     opening.abort.abort();
     if (this.isReading) {
       this.volume.engine?.cancel();
-      this.hasLostVolume = true;
+      this.volume.isLost = true;
     }
     this.endOpening();
     this.messages.tell(t("cancelled", { name: opening.name }));
@@ -122,7 +120,7 @@ export class Model extends ViewPart {
       async () => {
         this.city?.end();
         // The library has one city at a time: if this one fails, the previous one must be opened again.
-        this.hasLostVolume ||= this.city !== null;
+        this.volume.isLost ||= this.city !== null;
         const info = await city.open();
         this.city = city;
         this.openedWith = {};
@@ -157,13 +155,13 @@ export class Model extends ViewPart {
     } finally {
       if (this.opening === opening) this.endOpening();
       // If another opening has begun meanwhile, that one replaces the volume.
-      if (this.hasLostVolume && !this.opening) await this.bringBack();
+      if (this.volume.isLost && !this.opening) await this.bringBack();
     }
   }
 
   /** Another model has replaced the previous one. */
   private replace(info: VolumeInfo, from: { file: string; otherFiles: string[]; source: Source | null; state: ViewState | null }): void {
-    this.hasLostVolume = false;
+    this.volume.isLost = false;
     this.source = from.source;
     this.volume.file = from.file;
     this.volume.otherFiles = from.otherFiles;
@@ -220,9 +218,9 @@ export class Model extends ViewPart {
       else {
         await engine.open(await source!(), () => undefined, this.openedWith);
         await this.owners.giveAgain();
-        this.view.redraw();
       }
-      this.hasLostVolume = false;
+      this.volume.isLost = false;
+      this.view.redraw();
       return true;
     } catch (again) {
       this.messages.fail(again);

@@ -49,7 +49,7 @@ export class ShownPicture extends ViewPart {
       engine,
       size: () => view.size,
       describe: (size, samples, quality) => {
-        if (!volume.info) return null;
+        if (!volume.info || volume.isLost) return null;
         const described = view.describe(size, samples, true);
         if (quality === "moving") return withVoxels(described);
         // A graphics card draws voxels at once; faces are drawn by the CPU.

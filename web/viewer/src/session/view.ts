@@ -63,8 +63,8 @@ export class View extends Observable {
   isSquare = false;
   isWalking = false;
   isLegendShown = false;
-  /** The part of the library that draws the faces of the model is there. */
-  hasFaces = false;
+  /** The part of the library that draws the faces of the model is there; null: it may come. */
+  hasFaces: boolean | null = null;
   /** Grows with each change that redraws the picture. */
   revision = 0;
   /** How the first camera is fitted, from the direction of `state.preset`. */
@@ -140,7 +140,7 @@ export class View extends Observable {
   /** Whether pictures on the screen may have the faces of the model. */
   private get showsFaces(): boolean {
     const { info, isCity } = this.volume;
-    return this.hasFaces && !isCity && (info?.hasMeshes ?? false);
+    return this.hasFaces === true && !isCity && (info?.hasMeshes ?? false);
   }
 
   /** Whether selected features are tinted: not in effects, and not over colours that have a meaning. */
