@@ -303,17 +303,17 @@ private:
         return true;
     }
 
-    // Whether an object is a surface in this place: also a closed one that begins and ends here.
-    [[nodiscard]] bool isSheetHere(std::uint32_t object) const noexcept {
+    // Whether an object is a surface in this place: also a closed one whose front and back lie here. At an edge that the
+    // ray grazes, the two faces are not parallel.
+    [[nodiscard]] bool isSheetHere(std::uint32_t object) const {
+        constexpr double kOpposite = -0.99;
         if (!data_.objects[object].isSolid) return true;
         if (here_.size() < 2 || data_.objects[object].isMaterial || inside_.winding(object) > 0) return false;
-        int entries = 0, sum = 0;
-        for (const FaceCrossing& crossing : here_) {
-            if (objectOf(crossing) != object) continue;
-            entries += crossing.isEntry ? 1 : 0;
-            sum += crossing.isEntry ? 1 : -1;
-        }
-        return entries > 0 && sum == 0;
+        const FaceCrossing *front = nullptr, *back = nullptr;
+        for (const FaceCrossing& crossing : here_)
+            if (objectOf(crossing) == object) (crossing.isEntry ? front : back) = &crossing;
+        return front != nullptr && back != nullptr &&
+               dot(data_.worldNormal(front->triangle), data_.worldNormal(back->triangle)) < kOpposite;
     }
 
     bool moveTo(Owner owner, double t, const RunStart& start) {
