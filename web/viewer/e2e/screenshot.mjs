@@ -18,7 +18,11 @@ function listed(name, title, vectors, ...options) {
 const { context, close } = await browse({ viewport: { width: 1440, height: 860 }, locale: "en-US", colorScheme: "light" });
 const page = await context.newPage();
 page.setDefaultTimeout(240_000);
-const finished = () => page.waitForFunction(() => document.querySelector("svt-app").session.picture.quality === "fine");
+const finished = () =>
+  page.waitForFunction(() => {
+    const { picture, view } = document.querySelector("svt-app").session;
+    return picture.quality === "fine" && view.hasFaces;
+  });
 
 async function cutOpen() {
   const server = await serve(withModels([listed("house", "Sample house", "edges")]));
