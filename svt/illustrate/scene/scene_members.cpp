@@ -50,6 +50,9 @@ struct SceneText : PlainCodec<SceneText, std::string> {
 };
 
 constexpr std::string_view kColor = "#rrggbb, #rgb or a colour name";
+constexpr std::string_view kSurfaces =
+    "the source of the labels: the voxels, or the faces of the model, which are exact at any spacing, but take up to a "
+    "few times as long";
 
 void checkScene(Faults& faults, const std::string& path, const std::string& scene,
                 std::span<const char* const> absent) {
@@ -294,9 +297,7 @@ Members<Scene> membersOf(const Scene*) noexcept {
                                  .group = "View",
                                  .option = "--samples"}),
         member<&Scene::surfaces>(
-            "surfaces",
-            "the source of the labels: the voxels, or the faces of the model, which are exact at "
-            "any spacing, but take up to a few times as long",
+            "surfaces", kSurfaces,
             {.otherwise = "exact, if the model has meshes", .group = "Style", .option = "--surfaces"}),
         member<&Scene::look>(
             "look",
