@@ -353,6 +353,10 @@ class Words(unittest.TestCase):
             v.render(memory=100)
         with self.assertRaisesRegex(svt.Error, "surfaces exact does not support cells"):
             house().render(surfaces="exact", cells=True)
+        voxels = svt.Volume.from_dense(np.ones((4, 4, 4), np.uint8))
+        voxels.render(size=(20, 20))
+        with self.assertRaisesRegex(svt.Error, "without meshes"):
+            voxels.render(size=(20, 20), surfaces="exact")
         with self.assertRaisesRegex(TypeError, "output"):
             v.render(output="x.png")
         for options in (

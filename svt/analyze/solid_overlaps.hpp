@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The owner of space that several objects claim, and the space that two solids claim, m3: exact from closed meshes,
-/// however thin; from voxels if there are no closed meshes.
+/// The owner of space that several objects claim, and the volume of space that two solids claim, m3. Closed meshes give
+/// the exact volume, also of thin solids. Without them, voxels give the volume.
 
 #include <svt/model/classes.hpp>
 #include <svt/volume/semantic_volume.hpp>

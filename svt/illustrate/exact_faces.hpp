@@ -14,15 +14,15 @@
 namespace svt::illustrate {
 
 struct ExactFaces {
-    std::unique_ptr<const render::RunSource> source;  ///< null: there are no meshes
-    std::size_t features = 0, byVoxels = 0;           ///< all, and those that voxels show
+    std::unique_ptr<const render::RunSource> source;  ///< null if the volume has no meshes
+    std::size_t features = 0, byVoxels = 0;           ///< all features, and those that voxels show
 };
 
-/// Whether a pass with this representation shows faces if there are any: not hulls, cells and coarse levels, nor a scene
-/// with SurfaceSource::Voxels.
+/// Whether a pass with this representation shows the faces of a volume that has meshes. Hulls, cells, coarse levels and
+/// scenes with SurfaceSource::Voxels show voxels.
 [[nodiscard]] bool drawsFaces(std::optional<SurfaceSource> surfaces,
                               const VolumeRepresentation& representation) noexcept;
-/// Whether a pass of the scene does.
+/// Whether any pass of the scene shows faces.
 [[nodiscard]] bool drawsFaces(const Scene& scene) noexcept;
 
 /// \return nothing, or BadArgument for SurfaceSource::Exact with cells or coarse levels, which are voxels

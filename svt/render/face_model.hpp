@@ -8,8 +8,9 @@
 ///     label       -   | wall        | room    | wall | -        the object of the highest priority
 ///
 /// A closed object owns the points that its winding number puts inside it. A surface without inside has a label only on
-/// its triangles, and so has a closed object where it is thinner than 0.1 mm. Where several objects contain a point, the one with the highest priority owns it: the rule by which voxels get
-/// their labels (voxelize.hpp), evaluated along the ray. So the faces of a picture do not depend on the spacing.
+/// its triangles. A closed object counts as a surface where it is thinner than 0.1 mm. Where several objects contain a
+/// point, the one with the highest priority owns it: the rule by which voxels get their labels (voxelize.hpp), evaluated
+/// along the ray. So the faces of a picture do not depend on the spacing.
 ///
 /// Voxels still give the labels of objects without closed mesh: open shells, thematic bodies, objects with patterns.
 /// If both kinds of objects contain a point, the priority decides, too.
@@ -49,8 +50,8 @@ public:
     [[nodiscard]] std::uint64_t scalarCount() const noexcept override;
 
     /// Visits the runs of one ray in [from, to), which must lie in spanInVolume(). Crossings within 0.1 mm of each other
-    /// are in one place. A translucent sheet, or a body whose mean thickness is less, absorbs light as if it were one
-    /// voxel thick, as in pictures of voxels.
+    /// are in one place. A translucent sheet absorbs light as if it were one voxel thick. So does a body whose mean
+    /// thickness (2 * volume / area) is less than a voxel, as in pictures of voxels.
     /// \param metresPerT  metres per unit of the ray's parameter
     /// Cost: O(log(triangles) * crossings up to the end of the walk).
     void walk(const volume::BrickVolume& bricks, const VoxelRay& ray, double metresPerT, double from, double to,

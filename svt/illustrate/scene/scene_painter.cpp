@@ -135,18 +135,15 @@ Result<render::DrawnVolume> ScenePainter::representation(const VolumeRepresentat
     return representationOf(0, wanted, surfaces, spec);
 }
 
-// The faces of the volume or of a detail; null: voxels show all features.
+// The faces of the volume or of a detail; null if it has no meshes. Only those of the volume can be required.
 Result<const render::RunSource*> ScenePainter::facesOf(Representations& representations, bool areRequired) {
     const volume::SemanticVolume& volume = *representations.volume;
-    const bool isFirst = representations.number == 0;
+    const bool isRequired = areRequired && representations.number == 0;
+    if (isRequired && makeFaces_ == nullptr)
+        return Error(Code::BadArgument, "exact surfaces are not available here; leave out --surfaces exact");
     std::optional<ExactFaces>& faces = representations.faces;
-    if (isFirst && areRequired && !(faces && faces->source)) {
-        if (makeFaces_ == nullptr)
-            return Error(Code::BadArgument, "exact surfaces are not available here; leave out --surfaces exact");
-        SVT_TRY(made, makeFaces_(volume));
-        faces = std::move(*made);
-    }
-    if (!faces && makeFaces_ != nullptr && !volume.vectors.triangles.empty()) {
+    const bool isMissing = !faces || (isRequired && !faces->source);
+    if (isMissing && makeFaces_ != nullptr && (isRequired || !volume.vectors.triangles.empty())) {
         SVT_TRY(made, makeFaces_(volume));
         faces = std::move(*made);
     }

@@ -20,7 +20,7 @@ struct FaceModel::Data {
         bool isSolid = false;
         bool isMaterial = false;  ///< a solid whose points belong to its skins
         bool isSkin = false;      ///< a surface that owns the material behind it
-        double thickening = 1;    ///< by this factor a way through it is longer for the light that it absorbs
+        double thickening = 1;    ///< factor on the length of a way through it, for the light that it absorbs
     };
 
     volume::Grid grid;

@@ -113,19 +113,16 @@ export async function newContext(options = {}) {
 
 /** In the page: counts the cameras for which it has asked a worker (`svtAwaitedCameras`), and delays each request. */
 function watchWorkers(delay) {
+  /** @type {Map<Worker, Set<number>>} ids of the requests without an answer */
   const awaited = new Map();
-  Object.defineProperty(globalThis, "svtAwaitedCameras", { get: () => awaited.size });
-  const { postMessage, terminate } = Worker.prototype;
   const ends = new WeakMap();
-  let numbers = 0;
-  const numberOf = new WeakMap();
-  const keyOf = (worker, id) => `${numberOf.get(worker)} ${id}`;
+  Object.defineProperty(globalThis, "svtAwaitedCameras", { get: () => [...awaited.values()].reduce((sum, ids) => sum + ids.size, 0) });
+  const { postMessage, terminate } = Worker.prototype;
   Worker.prototype.postMessage = function (request, transfer) {
-    if (!numberOf.has(this)) {
-      numberOf.set(this, ++numbers);
-      this.addEventListener("message", ({ data }) => "step" in data || awaited.delete(keyOf(this, data.id)));
-    }
-    if (request.name === "view") awaited.set(keyOf(this, request.id), this);
+    const ids = awaited.get(this) ?? new Set();
+    if (!awaited.has(this)) this.addEventListener("message", ({ data }) => "step" in data || ids.delete(data.id));
+    awaited.set(this, ids);
+    if (request.name === "view") ids.add(request.id);
     const post = () => postMessage.call(this, request, transfer);
     if (!delay) return post();
     const late = new Promise((done) => setTimeout(done, delay * 2 ** (2 * Math.random() - 1)));
@@ -133,7 +130,7 @@ function watchWorkers(delay) {
   };
   Worker.prototype.terminate = function () {
     terminate.call(this);
-    for (const [key, worker] of awaited) if (worker === this) awaited.delete(key);
+    awaited.delete(this);
   };
 }
 export const endBrowser = async () => {

@@ -42,7 +42,7 @@ export class OpenVolume extends Observable {
   compared: { old: string; new: string } | null = null;
   /** null: nothing is open. */
   info: VolumeInfo | null = null;
-  /** The page shows a model that is no longer open in the library, which opens it again. */
+  /** The library has lost the model that the page shows. Until it has opened the model again, nothing is drawn. */
   isLost = false;
   /** The box of a city is that of its first tile; other tiles do not change it. */
   box: Box = kUnitBox;
