@@ -161,7 +161,7 @@ describe("attributes", () => {
       });
       return { untied, colorBy: element.getAttribute("color-by"), scaleBar: element.hasAttribute("scale-bar"), count: names.length };
     }, "/node_modules/@semantic-volume-texture/viewer/dist/svt-viewer.js");
-    assert.deepEqual(seen, { untied: [], colorBy: "storey", scaleBar: true, count: 33 });
+    assert.deepEqual(seen, { untied: [], colorBy: "storey", scaleBar: true, count: 34 });
     await visitor.loaded("a");
     assert.equal((await visitor.ask("a", "e.scene()")).colorBy, "storey");
   });

@@ -24,6 +24,9 @@ before(async () => {
 const asked = (of = site) =>
   [...new Set(of.requests.filter((path) => path.startsWith(kDist)).map((path) => path.slice(kDist.length)))].sort();
 
+/** The whole library, and the font that it may need without a connection. */
+const kForFaces = ["DejaVuSans.ttf", "svt.wasm"];
+
 describe("loading", () => {
   it("begins with one small file, and goes on near the visible part of the page", async () => {
     site.requests.length = 0;
@@ -34,13 +37,31 @@ describe("loading", () => {
     assert.ok(!site.requests.includes("/house.svt"));
     await visitor.page.evaluate(() => scrollTo(0, 4000));
     await visitor.loaded("a");
-    assert.deepEqual(asked(), ["svt-viewer.js", "svt_view.wasm", "viewing.js", "worker.js"]);
+    const first = ["svt-viewer.js", "svt_view.wasm", "viewing.js", "worker.js"];
+    assert.deepEqual(
+      asked().filter((name) => !kForFaces.includes(name)),
+      first,
+    );
+    await eventually(async () => assert.deepEqual(asked(), [...first, ...kForFaces].sort()));
     // Limits of what a visit transfers, compressed; the manual states the sizes.
     const size = (name) => gzipSync(readFileSync(at(`${kDist}${name}`))).length;
     assert.ok(size("svt-viewer.js") < 6_000, `svt-viewer.js: ${size("svt-viewer.js")} bytes`);
     assert.ok(size("viewing.js") + size("worker.js") < 66_500, `viewing.js and worker.js: ${size("viewing.js") + size("worker.js")} bytes`);
     assert.ok(size("svt_view.wasm") < 1_100_000, `svt_view.wasm: ${size("svt_view.wasm")} bytes`);
     assert.ok(size("svt.wasm") < 1_900_000, `svt.wasm: ${size("svt.wasm")} bytes`);
+  });
+
+  it("fetches the rest of the library only if pictures may have faces", async () => {
+    site.requests.length = 0;
+    await visitor.show(site, `<svt-viewer id="a" src="house.svt" surfaces="voxels"></svt-viewer>`);
+    await visitor.loaded("a");
+    await visitor.page.waitForTimeout(2000);
+    assert.deepEqual(
+      asked().filter((name) => kForFaces.includes(name)),
+      [],
+    );
+    await visitor.ask("a", "e.removeAttribute('surfaces')");
+    await eventually(async () => assert.ok(kForFaces.every((name) => asked().includes(name))));
   });
 
   it("begins at once if the page asks for it, and not without a model", async () => {

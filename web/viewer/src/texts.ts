@@ -305,10 +305,6 @@ const kTexts = {
   wireframe_faint: ["Hidden faint", "Verdeckte blass"],
   wireframe_dashed: ["Hidden dashed", "Verdeckte gestrichelt"],
   wireframe_none: ["Visible only", "Nur sichtbare"],
-  noEdges: [
-    "This volume was built without edges (svt build --vectors edges).",
-    "Dieses Volumen wurde ohne Kanten gebaut (svt build --vectors edges).",
-  ],
   names: ["Names of the selection", "Namen der Auswahl"],
   colorBy: ["Colour by", "Farbe nach"],
   colorByNothing: ["The model's own colours", "Farben des Modells"],
@@ -376,10 +372,6 @@ const kTexts = {
   copyLink: ["Copy link", "Link kopieren"],
   copyCommand: ["Copy command", "Befehl kopieren"],
   copyEmbedding: ["Copy embedding code", "Code zum Einbetten kopieren"],
-  copyEmbeddingHint: [
-    "An iframe with this view, for pages that may show this site: a published folder may be shown anywhere.",
-    "Ein iframe mit dieser Ansicht, für Seiten, die diese zeigen dürfen: Ein veröffentlichter Ordner darf überall gezeigt werden.",
-  ],
   sceneJson: ["Scene (JSON)", "Szene (JSON)"],
   apply: ["Apply", "Anwenden"],
   download: ["Download", "Herunterladen"],
@@ -396,14 +388,6 @@ const kTexts = {
   pictureHeight: ["Height", "Höhe"],
   pictureSave: ["Save PNG", "PNG speichern"],
   pictureWorking: ["Drawing", "Wird gezeichnet"],
-  linkOnThisMachine: [
-    "Copied. The address works only on this computer: others cannot open it.",
-    "Kopiert. Die Adresse gilt nur auf diesem Rechner: Andere können sie nicht öffnen.",
-  ],
-  linkTooLong: [
-    "Copied. The link has {n} characters; some programs shorten such links. A file of bookmarks is safer.",
-    "Kopiert. Der Link hat {n} Zeichen; manche Programme kürzen solche Links. Eine Datei mit Lesezeichen ist sicherer.",
-  ],
   badLink: ["The link is damaged; the model is shown as it is.", "Der Link ist beschädigt; das Modell wird gezeigt, wie es ist."],
   badJson: ["This is not JSON: {error}", "Das ist kein JSON: {error}"],
   stillLabel: ["Picture of {name}", "Bild von {name}"],

@@ -86,6 +86,22 @@ const kToolTexts = {
   statusOpen: ["Open", "Offen"],
   statusInProgress: ["In progress", "In Arbeit"],
   statusClosed: ["Closed", "Erledigt"],
+  noEdges: [
+    "This volume was built without edges (svt build --vectors edges).",
+    "Dieses Volumen wurde ohne Kanten gebaut (svt build --vectors edges).",
+  ],
+  copyEmbeddingHint: [
+    "An iframe with this view, for pages that may show this site: a published folder may be shown anywhere.",
+    "Ein iframe mit dieser Ansicht, für Seiten, die diese zeigen dürfen: Ein veröffentlichter Ordner darf überall gezeigt werden.",
+  ],
+  linkOnThisMachine: [
+    "Copied. The address works only on this computer: others cannot open it.",
+    "Kopiert. Die Adresse gilt nur auf diesem Rechner: Andere können sie nicht öffnen.",
+  ],
+  linkTooLong: [
+    "Copied. The link has {n} characters; some programs shorten such links. A file of bookmarks is safer.",
+    "Kopiert. Der Link hat {n} Zeichen; manche Programme kürzen solche Links. Eine Datei mit Lesezeichen ist sicherer.",
+  ],
 } as const satisfies Record<string, readonly [string, string]>;
 
 export type ToolTextKey = keyof typeof kToolTexts;

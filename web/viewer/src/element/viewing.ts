@@ -138,7 +138,6 @@ export class Viewing {
     if (!this.isOpen) return;
     const changes = changesOf(before.view, given.view);
     if (Object.keys(changes).length) session.view.set(changes);
-    this.prepareFaces();
     if (!hasOtherCamera(before, given)) return;
     session.view.framing = given.framing;
     if (given.camera) session.view.moveTo(given.camera);
@@ -205,7 +204,7 @@ export class Viewing {
 
   private watch(): void {
     const { host, session } = this;
-    const { messages, view } = session;
+    const { messages, picture, view, volume } = session;
     const watch = (run: () => void) => this.unwatch.push(effect(run));
     watch(() => {
       const { progress } = messages;
@@ -222,6 +221,10 @@ export class Viewing {
       if (isDrawn(session)) untracked(() => this.loadedNow());
     });
     watch(() => {
+      const mayHaveFaces = volume.info?.hasMeshes && !volume.isCity && view.now.surfaces !== "voxels";
+      if (mayHaveFaces && picture.quality === "fine") untracked(() => void session.prepareFaces());
+    });
+    watch(() => {
       if (view.now.camera) untracked(() => this.cameraChanged());
     });
   }
@@ -232,13 +235,6 @@ export class Viewing {
     this.isLoaded = true;
     this.host.frame.isShown = true;
     this.host.send("load", { info, threads: engine.threads });
-    this.prepareFaces();
-  }
-
-  /** Loads the part of the library that draws faces, if they are wanted. */
-  private prepareFaces(): void {
-    const { session, given } = this;
-    if (given.view.surfaces === "exact" && this.isLoaded) void session.prepareFaces();
   }
 
   /** At most one event per frame. */

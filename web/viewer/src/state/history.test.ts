@@ -57,6 +57,13 @@ describe("history", () => {
     expect(history.last).toEqual(["lens"]);
   });
 
+  it("counts choices before the first camera, and keeps that camera", () => {
+    const history = new History();
+    const early = { ...start, camera: null };
+    history.record(early, { ...early, hide: ["class=Roof"] }, 0);
+    expect(history.undo({ ...start, hide: ["class=Roof"] })).toEqual(start);
+  });
+
   it("keeps what no step changed, and forgets what was undone when something else is done", () => {
     const history = new History();
     const hidden = { ...start, hide: ["x"] };

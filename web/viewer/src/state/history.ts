@@ -16,7 +16,7 @@ interface Step {
 
 const kSameStep = 800;
 const kMaxSteps = 200;
-/** Members without steps: the selection is not drawn, and the user does not choose the first camera of the picture. */
+/** Members without steps: the selection is not drawn, and the preset only gives the first camera. */
 const kUncounted = new Set<keyof ViewState>(["selection", "selectedBy", "preset"]);
 
 export class History extends Observable {
@@ -26,8 +26,9 @@ export class History extends Observable {
 
   /** @param now  milliseconds, on any clock that only grows */
   record(before: ViewState, after: ViewState, now: number): void {
-    const changed = (Object.keys(after) as Changed).filter((key) => before[key] !== after[key] && !kUncounted.has(key));
-    if (!changed.length || before.camera === null || isHovering(before, after, changed)) return;
+    const isCounted = (key: keyof ViewState) => !kUncounted.has(key) && !(key === "camera" && before.camera === null);
+    const changed = (Object.keys(after) as Changed).filter((key) => before[key] !== after[key] && isCounted(key));
+    if (!changed.length || isHovering(before, after, changed)) return;
     const last = this.done.at(-1);
     if (this.undone.length) this.undone = [];
     if (last && !this.isSealed && now - last.at < kSameStep && last.changed.join() === changed.join()) {

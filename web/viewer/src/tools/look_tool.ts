@@ -43,7 +43,7 @@ export class LookTool extends Part {
         const value = (e.target as HTMLSelectElement).value;
         session.view.set({ wireframe: value === "off" ? null : (value as HiddenLines) });
       }}>${kLines.map((line) => html`<option value=${line} ?selected=${(wireframe ?? "off") === line}>${t(`wireframe_${line}`)}</option>`)}</select>
-      ${hasEdges ? nothing : html`<p class="small quiet">${t("noEdges")}</p>`}
+      ${hasEdges ? nothing : html`<p class="small quiet">${toolText("noEdges")}</p>`}
       <div class="row">
         <label class="check" title=${help("/names")}><input type="checkbox" id="names" .checked=${names} @change=${(e: Event) => session.view.set({ names: (e.target as HTMLInputElement).checked })} />${t("names")}</label>
         <label class="check"><input type="checkbox" id="legend" .checked=${session.view.isLegendShown} @change=${(e: Event) => (session.view.isLegendShown = (e.target as HTMLInputElement).checked)} />${t("legend")}</label>

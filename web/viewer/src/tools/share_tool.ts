@@ -9,6 +9,7 @@ import { ofScene } from "../state/link";
 import { kOtherFirstValues, kRanges, rangeOfControl } from "../state/member_controls";
 import { initialState, type ViewState } from "../state/view_state";
 import { help, t } from "../texts";
+import { toolText } from "../tool_texts";
 import { copy, save } from "../ui/files";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
@@ -66,7 +67,7 @@ export class ShareTool extends Part {
       <div class="row">
         <button id="copy-link" @click=${() => void this.copyLink()}>${icon("copy", 16)}${t("copyLink")}</button>
         <button id="copy-command" @click=${() => void this.copyCommand()}>${icon("code", 16)}${t("copyCommand")}</button>
-        <button id="copy-embedding" title=${t("copyEmbeddingHint")} ?hidden=${this.session.volume.isLocal} @click=${() => void this.copyEmbedding()}>${t("copyEmbedding")}</button>
+        <button id="copy-embedding" title=${toolText("copyEmbeddingHint")} ?hidden=${this.session.volume.isLocal} @click=${() => void this.copyEmbedding()}>${t("copyEmbedding")}</button>
         <button id="show-scene" aria-expanded=${this.sceneText !== null} @click=${() => void this.toggleScene()}>${t("sceneJson")}</button>
       </div>
       ${this.sceneText !== null ? this.scene(this.sceneText) : nothing}
@@ -126,8 +127,8 @@ export class ShareTool extends Part {
     if (!isCopied) return session.messages.tell(t("notCopied"));
     if (session.volume.isLocal)
       session.messages.tell(t("linkNeedsFile", { name: Object.values(session.volume.compared ?? session.volume.fileNames).join(", ") }));
-    else if (isOfThisMachine(location)) session.messages.tell(t("linkOnThisMachine"));
-    else if (location.href.length > kLongLink) session.messages.tell(t("linkTooLong", { n: location.href.length }));
+    else if (isOfThisMachine(location)) session.messages.tell(toolText("linkOnThisMachine"));
+    else if (location.href.length > kLongLink) session.messages.tell(toolText("linkTooLong", { n: location.href.length }));
     else session.messages.tell(t("copied"));
   }
 
