@@ -15,7 +15,7 @@ cd "$work"
 fail() { echo "city: $1" >&2; [ ! -s said ] || cat said >&2; exit 1; }
 same() { # folder, what
   local name
-  for name in city.json index.bin ids.bin packs.bin packs; do diff -rq "good/$name" "$1/$name" >&2 || fail "$2: $1/$name differs"; done
+  for name in city.json index.bin ids.bin words.bin packs.bin packs; do diff -rq "good/$name" "$1/$name" >&2 || fail "$2: $1/$name differs"; done
   [ -z "$(find "$1" -name '*.tmp*')" ] || fail "$2: temporary files are left: $(find "$1" -name '*.tmp*')"
   echo "city: $2"
 }
@@ -47,10 +47,14 @@ same skewed "times of files, far in the future and the past, decide nothing"
 plan damaged
 "$svt" city run damaged -q
 packs=(damaged/packs/*.svtp)
-printf 'x' | dd of="${packs[0]}" bs=1 seek=5000 conv=notrunc status=none
-[ "$("$svt" city status damaged --proven | grep -c '^missing: 0$')" = 1 ] || fail "a damaged pack is not seen"
+cp "${packs[1]}" whole.svtp
 truncate -s 2000 "${packs[1]}"
 refused 3 "E605" "$svt" city merge damaged
+mv whole.svtp "${packs[1]}"
+printf 'x' | dd of="${packs[0]}" bs=1 seek=5000 conv=notrunc status=none
+[ "$("$svt" city status damaged --proven | grep -c '^missing: 0$')" = 1 ] || fail "a damaged pack is not seen"
+refused 3 "E603.*tile" "$svt" city merge damaged
+truncate -s 2000 "${packs[1]}"
 refused 3 "E603" "$svt" city extract damaged -o x.svt --detail 0 --box=0,0,-100,1e6,1e7,1000
 [ ! -e x.svt ] || fail "a volume of a damaged pack"
 "$svt" city run damaged -q
@@ -58,7 +62,7 @@ same damaged "a damaged and a cut pack are named, and built again"
 top=$(python3 -c 'import json; print("%05d" % json.load(open("damaged/city.json"))["top"]["pack"])')
 truncate -s 300 "damaged/packs/$top.svtp"
 refused 3 "E603" "$svt" city extract damaged -o x.svt --detail 2 --box=0,0,-100,1e6,1e7,1000
-for name in index.bin ids.bin; do
+for name in index.bin ids.bin words.bin; do
   truncate -s 20 "damaged/$name"
   refused 3 "E604.*merge" "$svt" city extract damaged -o x.svt --id BLDG_0000000100000005
 done
@@ -87,7 +91,7 @@ refused 5 "E405" "$svt" city task small/town 0 --of 1
 mount -o remount,size=200m "$work/small"
 "$svt" city run small/town -q
 same small/town "a disk that is full in a task: named; with space the run goes on"
-rm small/town/city.json small/town/index.bin small/town/ids.bin
+rm small/town/city.json small/town/index.bin small/town/ids.bin small/town/words.bin
 top=$(printf 'small/town/packs/%05d.svtp' "$("$svt" city status small/town --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["packs"])')")
 rm "$top"
 used=$(df --output=used -k small | tail -n 1)

@@ -40,7 +40,7 @@ drained() { # until no job is left, at most $1 seconds
 }
 same() { # the city $1 has the bytes of the local one, $3
   local name
-  for name in city.json index.bin ids.bin packs.bin packs; do diff -rq "${3:-local}/$name" "$1/$name" >&2 || fail "$1/$name differs: $2"; done
+  for name in city.json index.bin ids.bin words.bin packs.bin packs; do diff -rq "${3:-local}/$name" "$1/$name" >&2 || fail "$1/$name differs: $2"; done
   echo "slurm: $2"
 }
 plan local

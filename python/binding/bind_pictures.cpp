@@ -115,10 +115,21 @@ void bindPictures(py::module_& module) {
         .def_property_readonly("buildings", [](const CityObject& city) { return city.city.buildings(); })
         .def_property_readonly("spacing", [](const CityObject& city) { return city.city.spacing(); })
         .def_property_readonly("crs", [](const CityObject& city) { return city.city.crsName(); })
-        .def_property_readonly("box", [](const CityObject& city) {
-            const auto corner = [](Vec3d p) { return std::array{p.x, p.y, p.z}; };
-            return std::pair(corner(city.city.box().min), corner(city.city.box().max));
-        });
+        .def_property_readonly("box",
+                               [](const CityObject& city) {
+                                   const auto corner = [](Vec3d p) { return std::array{p.x, p.y, p.z}; };
+                                   return std::pair(corner(city.city.box().min), corner(city.city.box().max));
+                               })
+        .def(
+            "search",
+            [](const CityObject& city, const std::string& words, std::size_t most) {
+                const auto found = longCall(py::none(), [&](const Progress*) { return city.city.search(words, most); });
+                std::vector<std::array<std::string, 4>> rows;
+                for (const auto& [id, name, className, address] : found.buildings)
+                    rows.push_back({id, name, className, address});
+                return std::pair(found.count, rows);
+            },
+            py::arg("words"), py::arg("most"));
     module.def(
         "open_city",
         [](const std::filesystem::path& folder, double memoryMb) {

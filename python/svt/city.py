@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,26 @@ from .model import PathLike, Progress
 from .picture import Frame
 
 Corner = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class FoundBuilding:
+    """A building that :meth:`City.search` found. Texts that the model does not state are empty."""
+
+    id: str
+    name: str
+    class_name: str
+    address: str
+
+
+@dataclass(frozen=True)
+class Found:
+    """Buildings that :meth:`City.search` found."""
+
+    #: Number of all buildings that were found.
+    count: int
+    #: The first ones.
+    buildings: list[FoundBuilding]
 
 
 class City:
@@ -51,6 +72,26 @@ class City:
     def box(self) -> tuple[Corner, Corner]:
         """Lower and upper corner in the coordinates of the models, metres."""
         return self._native.box
+
+    def search(self, words: str, *, most: int = 100) -> Found:
+        """Buildings whose names and attributes have all words, as ``svt city find`` gives them.
+
+        Parameters
+        ----------
+        words
+            Such as ``'hamburger 12'``, ``'street="Main Road"'`` or ``'yearOfConstruction=19'``. The last word may be the
+            beginning of one.
+        most
+            Maximum number of listed buildings.
+
+        Raises
+        ------
+        svt.Error
+            E904 for a text without words, or if too many words have this beginning; E604 if the index of words is
+            damaged, or missing because an earlier program merged the city.
+        """
+        count, rows = self._native.search(words, most)
+        return Found(count, [FoundBuilding(*row) for row in rows])
 
     def frame(self, *, progress: Progress = None, **options: Any) -> Frame:
         """A picture with the label and depth of each pixel; options as for :meth:`render`."""

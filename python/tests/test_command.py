@@ -333,6 +333,12 @@ class Command(unittest.TestCase):
             city.frame(size="200x150", **options).save(path("python.png"))
             with open(path("command.png"), "rb") as a, open(path("python.png"), "rb") as b:
                 self.assertTrue(a.read() == b.read(), options)
+        found = city.search("class=Building", most=5)
+        told = json.loads(command("city", "find", path("town"), "class=Building", "--most", "5", "--json"))
+        self.assertEqual(found.count, told["count"])
+        self.assertEqual([b.id for b in found.buildings], [b["id"] for b in told["buildings"]])
+        with self.assertRaisesRegex(svt.Error, "no words"):
+            city.search("...")
         with self.assertRaisesRegex(svt.Error, "for one volume only"):
             city.render(explode=2)
         with self.assertRaisesRegex(svt.Error, "surfaces: exact is for one volume only"):

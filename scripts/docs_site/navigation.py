@@ -40,7 +40,18 @@ COMMANDS = [
         "simulate-heat",
         "simulate-spread",
     ),
-    *("serve", "view", "city-plan", "city-run", "city-task", "city-status", "city-merge", "city-info", "city-extract"),
+    *(
+        "serve",
+        "view",
+        "city-plan",
+        "city-run",
+        "city-task",
+        "city-status",
+        "city-merge",
+        "city-info",
+        "city-find",
+        "city-extract",
+    ),
     *("thumbnail", "doctor", "describe"),
 ]
 LANGUAGES = ["query-language", "json", "exit-codes"]

@@ -48,7 +48,7 @@ public:
     void give(const Range& range, std::string bytes, std::uint64_t total);
     /// Marks a range as unavailable: reading it is an error with this message.
     void refuse(const Range& range, std::string message);
-    /// Forgets bytes of packs and refused ranges. Keeps the bytes of other files, such as the index and the ids.
+    /// Forgets bytes of packs and of words.bin, and refused ranges. Keeps those of other files: the index and the ids.
     void forget();
 
 private:

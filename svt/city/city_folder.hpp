@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A whole city on disk: merged from its packs, and searched by tile, box and id. docs/formats/city.md specifies
-/// city.json, index.bin and ids.bin.
+/// A whole city on disk: merged from its packs, and searched by tile, box, id and words. docs/formats/city.md specifies
+/// city.json, index.bin, ids.bin and words.bin.
 
 #include <svt/city/city_pack.hpp>
 #include <svt/city/city_plan.hpp>
@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace svt::city {
@@ -53,12 +54,12 @@ struct CityStatus {
 [[nodiscard]] CityStatus cityStatus(const std::filesystem::path& folder, const Plan& plan, bool isProven);
 
 /// Merges the existing packs of a plan. Makes the coarse levels (city_levels.hpp) in packs numbered after those of the
-/// plan. Writes packs.bin, index.bin, ids.bin and, last, city.json. Copies no pack.
+/// plan. Writes packs.bin, index.bin, ids.bin, words.bin and, last, city.json. Copies no pack.
 /// An update (updatePlan()) replaces the city only when all of its packs exist; otherwise nothing is written.
 /// \param threads  0: all cores; the result does not depend on it
 /// \return the merged and the missing parts, or BadPack, CannotWrite, DiskFull; CityIncomplete if no pack is done
-/// Memory: 80 bytes per tile, 24 per building, and 2 MB per tile along the border of the finished part: 4 sqrt(n) MB
-/// for n tiles.
+/// Memory: 80 bytes per tile, 24 per building, 256 MB for words, and 2 MB per tile along the border of the finished
+/// part: 4 sqrt(n) MB for n tiles. More words are sorted in temporary files.
 [[nodiscard]] Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& plan, int threads = 0,
                                            const Progress* progress = nullptr);
 
@@ -71,6 +72,12 @@ struct CityProof {
     File index, ids, packs;
     std::uint64_t root = 0, fence = 0;  ///< checksums of the root of the index and of the fence of the ids
     std::uint64_t idCount = 0;
+    struct Words : File {
+        std::uint64_t count = 0;    ///< buildings
+        std::uint64_t fenceAt = 0;  ///< offset of the fence, which ends with the file
+        std::uint64_t fence = 0;    ///< its checksum
+    };
+    std::optional<Words> words;  ///< none of cities of earlier programs
 };
 
 /// A merged city.
@@ -80,7 +87,7 @@ public:
     static constexpr int kVersion = 2;
 
     /// Reads city.json and the root of the index, and verifies them. city.json is verified by its digest. In a folder,
-    /// index.bin, ids.bin and packs.bin are verified by size and SHA-256; files over 64 MiB only by size. Those and the
+    /// index.bin, ids.bin, words.bin and packs.bin are verified by size and SHA-256; files over 64 MiB only by size. Those and the
     /// files of a server are verified page by page when they are read. Cities of earlier programs have no digests: only
     /// their pages are verified.
     /// \param folder  a folder, or the address of one (http://, https://), which is read by requests for ranges
@@ -127,6 +134,23 @@ public:
     };
     [[nodiscard]] Result<std::vector<Place>> find(const std::string& id) const;
 
+    /// Buildings that a search found.
+    struct Found {
+        struct Building {
+            std::string id, name, className, address;
+        };
+        std::uint64_t count = 0;          ///< of all
+        std::vector<Building> buildings;  ///< the first ones, in the order of tiles: neighbours are near each other
+    };
+    /// Buildings with all words of a text in their name, in their attributes, or in those of their parts and units. Case
+    /// does not matter. The last word is the beginning of a word, unless a blank follows. "year=1965" is the value of an
+    /// attribute, and class=Bridge a class; quotes keep blanks: street="Main Road". Ids are for find().
+    /// Reads the fence of words.bin, and the pages of these words and buildings.
+    /// \param most  maximum of Found::buildings
+    /// \return the buildings; BadArgument for a text without words, and if too many words have the beginning (their pages
+    ///         exceed 16 MiB); BadCity if words.bin is damaged, or missing because an earlier program merged the city
+    [[nodiscard]] Result<Found> search(std::string_view text, std::size_t most) const;
+
     /// The volume of an entry. Reads only its bytes. May be called from several threads. Its meshes are moved to
     /// SemanticVolume::footprints, because joined volumes have no meshes.
     /// \return the volume, or BadPack if it is damaged or belongs to another tile; CannotOpen or BadCity for servers
@@ -138,6 +162,7 @@ public:
 
 private:
     struct Page;
+    friend class WordSearch;
     explicit City(std::filesystem::path folder) : folder_(std::move(folder)) {}
     [[nodiscard]] Error damaged(const char* file, std::string_view what) const;
     Result<void> readJson(const std::string& text);

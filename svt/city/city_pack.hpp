@@ -45,8 +45,11 @@ public:
     /// The volume of a member. The bytes of a member are those of a `.svt` file.
     /// \return the volume, or BadPack, which names the damage; CannotOpen
     [[nodiscard]] Result<volume::SemanticVolume> read(const PackMember& member) const;
+    /// The labels of a member; its samples are not decoded. Errors as read().
+    [[nodiscard]] Result<volume::LabelTable> readLabels(const PackMember& member) const;
 
 private:
+    [[nodiscard]] Error damaged(const PackMember& member, const Error& reason) const;
     Pack(std::filesystem::path path, PartFile file) : path_(std::move(path)), file_(std::move(file)) {}
     std::filesystem::path path_;
     PartFile file_;

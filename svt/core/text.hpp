@@ -48,6 +48,9 @@ void appendUtf8(char32_t code, std::string& to);
 /// Number of characters of valid UTF-8. In other text, the number of bytes that are not continuation bytes.
 [[nodiscard]] std::size_t characterCount(std::string_view text) noexcept;
 
+/// The beginning of `text`, at most `most` bytes: cut before a character, not within one.
+[[nodiscard]] std::string_view shortened(std::string_view text, std::size_t most) noexcept;
+
 /// `text` as content of an element of XML 1.0, with escaped markup. Control characters that XML forbids become blanks;
 /// other forbidden characters and invalid UTF-8 become U+FFFD. Cost: O(length), also of xmlAttribute().
 [[nodiscard]] std::string xmlContent(std::string_view text);
@@ -90,6 +93,11 @@ template <class Integer>
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 [[nodiscard]] std::string lowerAscii(std::string_view text);
+/// Converts Latin, Greek and Cyrillic capitals of UTF-8 text to lower case; other characters stay unchanged. Invalid
+/// bytes become U+FFFD. For searches in the words of users, not for keywords. Cost: O(length).
+[[nodiscard]] std::string lowerCase(std::string_view text);
+/// The same for one character.
+[[nodiscard]] char32_t lowerCase(char32_t code) noexcept;
 [[nodiscard]] bool equalsIgnoringCase(std::string_view a, std::string_view b) noexcept;
 
 /// The parts of "a|b|c"; no parts for an empty text.

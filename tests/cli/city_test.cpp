@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace svt::test {
@@ -59,13 +60,14 @@ TEST_F(CityFolder, HasTheSameBytesHoweverItsTasksAreRun) {
         runWell({"city", "run", profile, "--jobs", "3"});
         const auto read = [&](const char* name) { return readText(folder / profile / name); };
         const std::string pack = read("packs/00000.svtp"), index = read("index.bin"), ids = read("ids.bin"),
-                          catalog = read("city.json");
+                          words = read("words.bin"), catalog = read("city.json");
         std::filesystem::remove_all(folder / profile / "packs");
         runWell({"city", "task", profile, "0", "--of", "1", "--threads", "2"});
         runWell({"city", "merge", profile});
         EXPECT_EQ(read("packs/00000.svtp"), pack);
         EXPECT_EQ(read("index.bin"), index);
         EXPECT_EQ(read("ids.bin"), ids);
+        EXPECT_EQ(read("words.bin"), words);
         EXPECT_EQ(read("city.json"), catalog);
     }
 }
@@ -164,6 +166,28 @@ TEST_F(CityFolder, BecomesTablesForGis) {
 }
 
 // What the city holds of a building is what `svt build` makes of the file on the same grid.
+TEST_F(CityFolder, IsSearchedByWords) {
+    plan("berlin", "town");
+    runWell({"city", "run", "town"});
+    const auto jsonOf = [&](const std::vector<std::string>& arguments) {
+        return runSvtForJson(folder.path(), arguments);
+    };
+    const auto json = jsonOf({"city", "find", "town", "roofType=1000", "--json"});
+    const auto count = json.at("count").get<std::size_t>();
+    EXPECT_GT(count, 0u);
+    EXPECT_EQ(json.at("buildings").size(), std::min<std::size_t>(count, 100));
+    // `svt query` reads every tile, without the index.
+    const auto rows = jsonOf({"query", "town", "roofType=1000", "--json"});
+    std::set<std::string> ids;
+    for (const auto& row : rows) ids.insert(row.at("id").get<std::string>());
+    EXPECT_EQ(ids.size(), count);
+    for (const auto& building : json.at("buildings")) EXPECT_TRUE(ids.contains(building.at("id"))) << building;
+    const CommandResult few = run({"city", "find", "town", "class=building", "rooftype=1", "--most", "2"});
+    EXPECT_NE(few.err.find("the first 2 are listed"), std::string::npos) << few.err;
+    EXPECT_EQ(run({"city", "find", "town", "..."}).exitCode, 2);
+    EXPECT_EQ(jsonOf({"city", "find", "town", "nobody", "--json"}).at("count"), 0);
+}
+
 TEST_F(CityFolder, HasTheVoxelsOfTheWholeModel) {
     runWell({"sample", "city", "--profile", "3dbag", "--buildings", "64", "-o", "files"});
     runWell({"city", "plan", "files", "-o", "city", "--spacing", "0.5", "-q"});
@@ -217,7 +241,7 @@ TEST_F(CityFolder, IsUpdated) {
         std::filesystem::remove_all(folder / "new");
         planOf("new", files, false);
         runWell({"city", "run", "new", "-q"});
-        for (const char* name : {"plan/plan.json", "city.json", "index.bin", "ids.bin", "packs.bin"})
+        for (const char* name : {"plan/plan.json", "city.json", "index.bin", "ids.bin", "words.bin", "packs.bin"})
             EXPECT_EQ(readText(folder / "city" / name), readText(folder / "new" / name)) << name;
         std::size_t packs = 0;
         for (const auto& entry : std::filesystem::directory_iterator(folder / "city/packs")) {

@@ -255,7 +255,7 @@ struct ServedCity : ServeTest {
 
 TEST_F(ServedCity, FilesThatAreShortenedAreErrorsAndTheServerGoesOn) {
     Serving serving(folder.path(), {"serve", "city", "--viewer", "page", "--port", "0"});
-    const std::vector<std::string> names{"packs/00000.svtp", "index.bin", "ids.bin", "packs.bin"};
+    const std::vector<std::string> names{"packs/00000.svtp", "index.bin", "ids.bin", "words.bin", "packs.bin"};
     for (const std::string& name : names) {
         const auto whole = serving.ask("GET /models/city/" + name);
         EXPECT_EQ(whole.status, 200) << name;

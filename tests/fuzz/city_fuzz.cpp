@@ -1,9 +1,11 @@
 // For any bytes the readers of a city's folder answer or name an error. Checksums are made right, so that what stands behind
-// them is reached. The first byte chooses: 0 references of the index, 1 a leaf, 2 a pack, 3 ids, 4 a whole index, 5 a member.
+// them is reached. The first byte chooses: 0 references of the index, 1 a leaf, 2 a pack, 3 ids, 4 a whole index, 5 a member,
+// 6 a page of words, 7 a page of buildings, 8 the fence of both.
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/city_folder.hpp>
 #include <svt/city/city_levels.hpp>
 #include <svt/city/merge/index_file.hpp>
+#include <svt/city/search/words_file.hpp>
 #include <svt/core/bytes.hpp>
 
 #include <unistd.h>
@@ -119,7 +121,7 @@ std::string idsOf(std::string_view data) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;
     const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
-    switch (data[0] % 6) {
+    switch (data[0] % 9) {
         case 0:
             if (const auto refs = takeRefs(text)) require(refs->size() == text.size() / PageRef::kBytes);
             break;
@@ -131,6 +133,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         case 2: openPack(text); break;
         case 3: openCity(indexOf({}), idsOf(text)); break;
         case 4: openCity(indexOf(text), {}); break;
+        case 6:
+            if (const auto rows = takeWords(text, 1000))
+                for (const WordRow& row : *rows)
+                    for (const std::uint32_t building : row.buildings) require(building < 1000);
+            for (const WantedWord& wanted : wantedWords(text))
+                require(!wanted.word.empty() && wanted.word.size() <= kMostWordBytes);
+            break;
+        case 7:
+            if (const auto buildings = takeBuildings(text)) require(buildings->size() <= kBuildingsOfPage);
+            break;
+        case 8:
+            if (const auto fence = takeFence(text, text.size() * 8))
+                for (const WordsPage& page : fence->words) require(page.offset + page.size <= text.size() * 8);
+            break;
         default: {
             svt::volume::Label label;
             label.className = std::string(text);

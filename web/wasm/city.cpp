@@ -84,4 +84,12 @@ Result<illustrate::SceneCamera> CityPage::find(const std::string& id, const illu
     return camera;
 }
 
+Result<city::City::Found> CityPage::search(const std::string& text, std::size_t most) {
+    SVT_DO(open());
+    auto found = city_->search(text, most);
+    // Pages of other words are fetched again, so that memory does not grow with each search.
+    if (!bytes_.isWanting()) bytes_.forget();
+    return found;
+}
+
 }  // namespace svt::web

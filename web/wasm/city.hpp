@@ -47,6 +47,8 @@ public:
     /// \return the camera; NothingSelected if there is no such building; else as look()
     [[nodiscard]] Result<illustrate::SceneCamera> find(const std::string& id, const illustrate::SceneCamera& now,
                                                        double aspect);
+    /// Buildings of the whole city by words: City::search(). Errors also as look().
+    [[nodiscard]] Result<city::City::Found> search(const std::string& text, std::size_t most);
     [[nodiscard]] const std::optional<city::City>& city() const noexcept { return city_; }
 
 private:

@@ -282,6 +282,19 @@ Result<Reply> cityFind(const Arguments& arguments) {
     return Reply(cameraText(*camera));
 }
 
+// (words, maximum of buildings) -> {needs}, or {count, buildings: [{id, name, class, address}, ...]}
+Result<Reply> citySearch(const Arguments& arguments) {
+    const auto found =
+        cityPage->search(arguments.text(0), static_cast<std::size_t>(std::max(0.0, arguments.number(1))));
+    const Json needs = needsJson();
+    if (!found) return needs.is_null() ? Result<Reply>(found.error()) : Reply(needs.dump());
+    Json buildings = Json::array();
+    for (const auto& [id, name, className, address] : found->buildings)
+        buildings.push_back({{"id", id}, {"name", name}, {"class", className}, {"address", address}});
+    const Json reply{{"count", found->count}, {"buildings", std::move(buildings)}};
+    return Reply(reply.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
 // (scene) -> PNG
 Result<Reply> picture(const Arguments& arguments) {
     SVT_TRY(scene, arguments.picture(0));
@@ -328,7 +341,8 @@ constexpr Call kCalls[] = {{"open", open, false},
                            {"cityGive", cityGive, false},
                            {"cityLook", cityLook, false},
                            {"cityDrop", cityDrop, false},
-                           {"cityFind", cityFind, false}};
+                           {"cityFind", cityFind, false},
+                           {"citySearch", citySearch, false}};
 
 }  // namespace
 

@@ -1,7 +1,9 @@
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
+#include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/table.hpp>
 
 #include <svt/city/city_folder.hpp>
 #include <svt/city/city_levels.hpp>
@@ -19,6 +21,36 @@ struct CityInfoArguments {
     std::filesystem::path folder;
     bool json = false;
 };
+
+struct CityFindArguments {
+    std::filesystem::path folder;
+    std::vector<std::string> words;
+    std::size_t most = 100;
+    bool json = false, csv = false;
+};
+
+Result<int> runCityFind(const CityFindArguments& arguments) {
+    std::string words;
+    for (const std::string& word : arguments.words) words += (words.empty() ? "" : " ") + word;
+    SVT_TRY(city, city::City::open(arguments.folder));
+    SVT_TRY(found, city->search(words, arguments.most));
+    const auto textOrNone = [](const std::string& text) { return text.empty() ? Cell() : Cell(text); };
+    Table table{{{"id", "id"}, {"name", "name"}, {"class", "class"}, {"address", "address"}}, {}};
+    for (const auto& building : found->buildings)
+        table.rows.push_back(
+            {building.id, textOrNone(building.name), building.className, textOrNone(building.address)});
+    if (arguments.json) {
+        print({{"count", found->count}, {"buildings", Json::parse(writers::makeJson(table))}});
+        return kDone;
+    }
+    print(table, arguments.csv ? TableFormat::Csv : TableFormat::Text);
+    if (found->count > found->buildings.size())
+        note(fmt::format("{} buildings have these words; the first {} are listed (--most)", found->count,
+                         found->buildings.size()));
+    else if (!arguments.csv)
+        summarize(fmt::format("{} building{}", found->count, found->count == 1 ? "" : "s"));
+    return kDone;
+}
 
 struct CityExtractArguments {
     std::filesystem::path folder, output;
@@ -81,12 +113,34 @@ Members<CityExtractArguments> membersOf(const CityExtractArguments*) noexcept {
     return kMembers;
 }
 
+Members<CityFindArguments> membersOf(const CityFindArguments*) noexcept {
+    using All = CityFindArguments;
+    static constexpr Member<All> kMembers[] = {
+        cityFolder<&All::folder>(),
+        member<&All::words>(
+            "words",
+            "words of the name, of attributes or of an address; attribute=value, such as "
+            "yearOfConstruction=1965, or class=Bridge. All must fit. The last word may be the beginning "
+            "of one",
+            {.value = "WORD", .isRequired = true}),
+        member<&All::most>("--most", "maximum number of listed buildings",
+                           {.least = 1, .most = 1000000, .group = "Output"}),
+        member<&All::json>("--json", "print the count and the buildings as JSON on stdout",
+                           {.group = "Output", .excludes = "--csv"}),
+        member<&All::csv>("--csv", "print the buildings as CSV on stdout", {.group = "Output"}),
+        quietOption<All>(),
+    };
+    return kMembers;
+}
+
 Result<int> runCityInfo(const CityInfoArguments& arguments) { return printCity(arguments.folder, arguments.json); }
 
 }  // namespace
 
 extern const CommandText kCityInfoCommand =
     commandOf<CityInfoArguments, runCityInfo>("city-info", "Show the contents of a city");
+extern const CommandText kCityFindCommand =
+    commandOf<CityFindArguments, runCityFind>("city-find", "Find buildings of a city by words of names and attributes");
 extern const CommandText kCityExtractCommand =
     commandOf<CityExtractArguments, runCityExtract>("city-extract", "Write a part of a city as a volume (.svt)");
 

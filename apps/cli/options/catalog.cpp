@@ -8,7 +8,8 @@ extern const CommandText kSampleCommand, kSampleCityCommand, kBuildCommand, kInf
     kFieldAddCommand, kFieldStatsCommand, kFieldProbeCommand, kFieldExportCommand, kFieldRemoveCommand,
     kSimulateHeatCommand, kSimulateSpreadCommand, kCadastreCommand, kDiffCommand, kShellCommand, kConvertCommand,
     kServeCommand, kViewCommand, kPublishCommand, kCityPlanCommand, kCityRunCommand, kCityTaskCommand,
-    kCityStatusCommand, kCityMergeCommand, kCityInfoCommand, kCityExtractCommand, kDoctorCommand, kDescribeCommand;
+    kCityStatusCommand, kCityMergeCommand, kCityInfoCommand, kCityFindCommand, kCityExtractCommand, kDoctorCommand,
+    kDescribeCommand;
 
 std::span<const CommandText> commandTexts() {
     static const CommandText kAll[] = {
@@ -18,7 +19,8 @@ std::span<const CommandText> commandTexts() {
         kFieldExportCommand, kFieldRemoveCommand, kSimulateHeatCommand, kSimulateSpreadCommand, kCadastreCommand,
         kDiffCommand,        kShellCommand,       kConvertCommand,      kServeCommand,          kViewCommand,
         kPublishCommand,     kCityPlanCommand,    kCityRunCommand,      kCityTaskCommand,       kCityStatusCommand,
-        kCityMergeCommand,   kCityInfoCommand,    kCityExtractCommand,  kDoctorCommand,         kDescribeCommand};
+        kCityMergeCommand,   kCityInfoCommand,    kCityFindCommand,     kCityExtractCommand,    kDoctorCommand,
+        kDescribeCommand};
     return kAll;
 }
 

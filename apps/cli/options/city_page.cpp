@@ -27,6 +27,8 @@ Result<serve::SiteModel> cityModel(const std::filesystem::path& input, const std
     if (location.starts_with("http://") || location.starts_with("https://")) return model;
     std::vector<std::string> files{"index.bin", "ids.bin", "packs.bin"};
     std::error_code failed;
+    // Cities of earlier programs have no index of words.
+    if (std::filesystem::exists(input / "words.bin", failed)) files.emplace_back("words.bin");
     for (const auto& entry : std::filesystem::directory_iterator(input / "packs", failed))
         if (entry.path().extension() == ".svtp") files.push_back("packs/" + entry.path().filename().string());
     if (failed)

@@ -160,7 +160,9 @@ Result<void> City::proveFolder() const {
         SVT_TRY(difference, differenceOf(*store_, name, *file));
         if (!difference->empty()) return damaged(name, *difference);
     }
-    return {};
+    if (!proof_->words) return {};
+    SVT_TRY(difference, differenceOf(*store_, "words.bin", *proof_->words));
+    return difference->empty() ? Result<void>() : damaged("words.bin", *difference);
 }
 
 Result<void> City::readRoot() {

@@ -39,12 +39,16 @@ std::uint64_t checksumOf(const nlohmann::json& row, const char* key) {
 
 }  // namespace
 
-void putProofs(Json& json, std::string_view index, std::string_view ids, std::string_view packs) {
+void putProofs(Json& json, std::string_view index, std::string_view ids, std::string_view packs,
+               const CityProof::Words& words) {
     json["index"] = fileJson("index.bin", index);
     json["index"]["root"] = fmt::format("{:016x}", numberAt(index, kRootSum));
     json["ids"] = fileJson("ids.bin", ids);
     json["ids"]["count"] = numberAt(ids, kIdCount);
     json["ids"]["fence"] = fmt::format("{:016x}", numberAt(ids, kFenceSum));
+    json["words"] = {{"file", "words.bin"},      {"bytes", words.bytes},
+                     {"sha256", words.sha256},   {"count", words.count},
+                     {"fenceAt", words.fenceAt}, {"fence", fmt::format("{:016x}", words.fence)}};
     json["packDigests"] = fileJson("packs.bin", packs);
 }
 
@@ -77,6 +81,9 @@ std::optional<CityProof> readProof(const nlohmann::json& json) {
     proof.idCount = json.at("ids").at("count").get<std::uint64_t>();
     proof.fence = checksumOf(json.at("ids"), "fence");
     proof.packs = fileOf(json.at("packDigests"));
+    if (const auto words = json.find("words"); words != json.end())
+        proof.words = {fileOf(*words), words->at("count").get<std::uint64_t>(),
+                       words->at("fenceAt").get<std::uint64_t>(), checksumOf(*words, "fence")};
     return proof;
 }
 

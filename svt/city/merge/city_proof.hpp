@@ -18,8 +18,9 @@ namespace svt::city {
 /// are compared by size, and page by page when they are read.
 inline constexpr std::uint64_t kMostProvenBytes = std::uint64_t{64} << 20;
 
-/// `index`, `ids` and `packDigests` of city.json.
-void putProofs(nlohmann::ordered_json& json, std::string_view index, std::string_view ids, std::string_view packs);
+/// `index`, `ids`, `words` and `packDigests` of city.json.
+void putProofs(nlohmann::ordered_json& json, std::string_view index, std::string_view ids, std::string_view packs,
+               const CityProof::Words& words);
 /// The text of city.json, with the SHA-256 of itself: that of the text with an empty `digest`.
 [[nodiscard]] std::string sealedJson(nlohmann::ordered_json json);
 /// Whether the text has the digest that it states. True for texts of earlier programs, which do not state a digest.

@@ -5,6 +5,7 @@
 #include <svt/city/city_levels.hpp>
 #include <svt/city/city_view.hpp>
 #include <svt/city/merge/index_file.hpp>
+#include <svt/city/search/words.hpp>
 #include <svt/city/store/store.hpp>
 #include <svt/city/tile/tile_builder.hpp>
 #include <svt/core/temporary_folder_test.hpp>
@@ -18,6 +19,7 @@
 #include <chrono>
 #include <csignal>
 #include <map>
+#include <set>
 #include <thread>
 
 namespace svt::city {
@@ -285,6 +287,119 @@ TEST_F(SmallCity, LosesNoBuildingAtAnyDetail) {
 }
 
 // A call whose bytes come later names them, and gives the same once they are there.
+// All words of all tiles, read without the index.
+std::vector<WordsOfBuilding> wordsOfAll(const City& city) {
+    std::vector<WordsOfBuilding> all;
+    const auto entries = city.find(0, kEverywhere);
+    EXPECT_TRUE(entries);
+    for (const IndexEntry& entry : *entries) {
+        const auto volume = city.read(entry);
+        EXPECT_TRUE(volume);
+        const auto& labels = volume->labels.labels;
+        for (std::uint32_t n = 0; n < labels.size(); ++n)
+            if (labels[n].parent == volume::kNoLabel) all.push_back(wordsOfBuilding(volume->labels, n));
+    }
+    return all;
+}
+
+TEST_F(SmallCity, FindsBuildingsByTheirWords) {
+    write(folder / "files", samples::CityProfile::Berlin, 4);
+    build(plan());
+    const City city = open();
+    const std::vector<WordsOfBuilding> all = wordsOfAll(city);
+    ASSERT_EQ(all.size(), 96u);
+    const auto has = [](const WordsOfBuilding& building, std::string_view word, bool isBeginning) {
+        return std::any_of(building.words.begin(), building.words.end(),
+                           [&](const std::string& own) { return isBeginning ? own.starts_with(word) : own == word; });
+    };
+    for (const char* query : {"roofType=1000", "1000", "310", "roofType=1000 storeysAboveGround=3", "class=Building 31",
+                              "class=Bridge", "Gemeindeschluessel", "nobody"}) {
+        std::set<std::string> expected;
+        const std::vector<WantedWord> wanted = wantedWords(query);
+        for (const WordsOfBuilding& building : all)
+            if (std::all_of(wanted.begin(), wanted.end(),
+                            [&](const WantedWord& w) { return has(building, w.word, w.isBeginning); }))
+                expected.insert(building.id);
+        const auto found = city.search(query, 1000);
+        ASSERT_TRUE(found) << found.error().toString();
+        EXPECT_EQ(found->count, expected.size()) << query;
+        std::set<std::string> ids;
+        for (const auto& building : found->buildings) ids.insert(building.id);
+        EXPECT_EQ(ids, expected) << query;
+    }
+    const auto few = city.search("31", 5);
+    ASSERT_TRUE(few);
+    EXPECT_TRUE(few->count > 5 && few->buildings.size() == 5 && few->buildings[0].className == "Building");
+    EXPECT_EQ(city.search(" ", 5).error().code(), Code::BadArgument);
+}
+
+TEST_F(SmallCity, FindsWordsInBytesThatAreGivenLater) {
+    write(folder / "files", samples::CityProfile::Berlin, 1);
+    build(plan());
+    const auto whole = open().search("roofType=1", 7);
+    ASSERT_TRUE(whole);
+    CityBytes bytes;
+    const auto found = [&] {
+        for (int round = 0;; ++round) {
+            auto city = City::open(bytes.store(), {});
+            auto result = city ? city->search("roofType=1", 7) : Result<City::Found>(city.error());
+            const auto wanted = bytes.wanted();
+            if (result || wanted.empty() || round > 9) return result;
+            for (const CityBytes::Range& range : wanted) {
+                const std::string all = this->bytes(range.name.c_str());
+                bytes.give(range, all.substr(std::min<std::size_t>(range.offset, all.size()), range.size), all.size());
+            }
+        }
+    }();
+    ASSERT_TRUE(found) << found.error().toString();
+    EXPECT_EQ(found->count, whole->count);
+    ASSERT_EQ(found->buildings.size(), whole->buildings.size());
+    EXPECT_EQ(found->buildings[0].id, whole->buildings[0].id);
+}
+
+TEST_F(SmallCity, NamesDamageOfTheIndexOfWords) {
+    write(folder / "files", samples::CityProfile::Berlin, 1);
+    const Plan made = plan();
+    build(made);
+    const std::string good = bytes("words.bin");
+    // Bytes of ranges, as on a server: the size is right, and only pages are compared.
+    const auto searched = [&](const std::string& spoiled) {
+        CityBytes given;
+        for (int round = 0; round < 10; ++round) {
+            auto city = City::open(given.store(), {});
+            auto result = city ? city->search("roofType=1", 96) : Result<City::Found>(city.error());
+            const auto wanted = given.wanted();
+            if (wanted.empty()) return result;
+            for (const CityBytes::Range& range : wanted) {
+                const std::string all = range.name == "words.bin" ? spoiled : bytes(range.name.c_str());
+                given.give(range, all.substr(std::min<std::size_t>(range.offset, all.size()), range.size), all.size());
+            }
+        }
+        return Result<City::Found>(Error(Code::BadArgument, "no end"));
+    };
+    const auto count = searched(good);
+    ASSERT_TRUE(count);
+    int refused = 0;
+    for (std::size_t at = 0; at < good.size(); at += 1 + good.size() / 400) {
+        std::string spoiled = good;
+        spoiled[at] = static_cast<char>(spoiled[at] ^ 0x41);
+        const auto result = searched(spoiled);
+        if (result)
+            EXPECT_EQ(result->count, count->count) << at;
+        else
+            EXPECT_EQ(result.error().code(), Code::BadCity) << at << result.error().toString();
+        refused += result ? 0 : 1;
+    }
+    EXPECT_GT(refused, 50);
+    // A folder compares the whole file, and the message says how to mend it.
+    test::writeText(folder / "city" / "words.bin", good.substr(1));
+    const auto city = City::open(folder / "city");
+    ASSERT_FALSE(city);
+    EXPECT_EQ(city.error().code(), Code::BadCity);
+    ASSERT_TRUE(mergeCity(folder / "city", made));
+    EXPECT_TRUE(bytes("words.bin") == good);
+}
+
 TEST_F(SmallCity, IsReadFromBytesThatAreGivenLater) {
     write(folder / "files", samples::CityProfile::Berlin, 2);
     build(plan());
@@ -584,7 +699,7 @@ TEST_F(SmallCity, NamesDamage) {
 TEST_F(SmallCity, NamesFilesOfAnotherMerge) {
     write(folder / "files", samples::CityProfile::Dutch, 1);
     build(plan());
-    const std::vector<std::string> names{"city.json", "index.bin", "ids.bin", "packs.bin"};
+    const std::vector<std::string> names{"city.json", "index.bin", "ids.bin", "words.bin", "packs.bin"};
     std::map<std::string, std::string> first;
     for (const std::string& name : names) first[name] = bytes(name.c_str());
     std::filesystem::remove_all(folder / "city");
@@ -652,6 +767,10 @@ TEST_F(SmallCity, ReadsCitiesOfEarlierProgramsWhichTellNoDigests) {
     const City city = open();
     EXPECT_EQ(city.buildings(), 96u);
     EXPECT_EQ(city.find("NL.IMBAG.Pand.0000030000000005")->size(), 1u);
+    const auto found = city.search("Pand", 1);
+    ASSERT_FALSE(found);
+    EXPECT_TRUE(found.error().code() == Code::BadCity &&
+                found.error().message().find("svt city merge") != std::string::npos);
 }
 
 TEST(CityInputs, AreAllFilesThatReadersTake) {

@@ -4,6 +4,7 @@
 #include <svt/city/merge/city_proof.hpp>
 #include <svt/city/merge/index_file.hpp>
 #include <svt/city/pack/pack_format.hpp>
+#include <svt/city/search/words_file.hpp>
 #include <svt/core/bytes.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/parallel.hpp>
@@ -72,6 +73,33 @@ void addPack(const Pack& pack, std::uint32_t number, double spacing, Merging& to
         for (const PackBuilding& building : member.buildings)
             to.ids.push_back({building.idHash, member.tile, building.label});
     }
+}
+
+Result<std::vector<WordsOfBuilding>> wordsOfTile(const Pack& pack, const PackMember& member) {
+    SVT_TRY(labels, pack.readLabels(member));
+    std::vector<WordsOfBuilding> buildings;
+    for (const PackBuilding& building : member.buildings)
+        if (building.label < labels->labels.size()) buildings.push_back(wordsOfBuilding(*labels, building.label));
+    return buildings;
+}
+
+// Adds the buildings of a pack to the index of words, in the order of its tiles and labels.
+Result<void> addWords(const Pack& pack, int threads, WordsWriter& to) {
+    std::vector<const PackMember*> members;
+    for (const PackMember& member : pack.members())
+        if (member.detail == 0) members.push_back(&member);
+    for (std::size_t begin = 0; begin < members.size(); begin += kBatch) {
+        const std::size_t count = std::min(kBatch, members.size() - begin);
+        std::vector<std::optional<Result<std::vector<WordsOfBuilding>>>> read(count);
+        parallelFor(count, 1, threads, [&](std::size_t first, std::size_t last) {
+            for (std::size_t n = first; n < last; ++n) read[n] = wordsOfTile(pack, *members[begin + n]);
+        });
+        for (auto& buildings : read) {
+            if (!*buildings) return buildings->error();
+            for (WordsOfBuilding& building : **buildings) SVT_DO(to.add(std::move(building)));
+        }
+    }
+    return {};
 }
 
 // Writes the coarse levels into packs behind those of the plan: each detail into its own, the coarsest first.
@@ -229,7 +257,7 @@ Json classesJson(const LevelClasses& classes) {
 }
 
 std::string cityJson(const Plan& plan, const CityStatus& status, const Merging& merged, std::string_view index,
-                     std::string_view ids) {
+                     std::string_view ids, const CityProof::Words& words) {
     Json json;
     json["format"] = "svt-city";
     json["version"] = City::kVersion;
@@ -256,7 +284,7 @@ std::string cityJson(const Plan& plan, const CityStatus& status, const Merging& 
     json["skippedFeatures"] = status.skipped.size() + plan.skipped;
     json["replicas"] = plan.replicas;
     if (plan.conflicts != 0) json["idConflicts"] = {{"count", plan.conflicts}, {"ids", plan.conflictIds}};
-    putProofs(json, index, ids, merged.packs);
+    putProofs(json, index, ids, merged.packs, words);
     return sealedJson(std::move(json));
 }
 
@@ -290,7 +318,9 @@ Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& pl
     if (status.missing.size() == plan.packs)
         return Error(Code::CityIncomplete, "no pack of the city is done; run its tasks first (svt city run)",
                      {folder.string(), 0, 0, {}});
-    for (const char* name : {"packs.bin", "index.bin", "ids.bin", "city.json"}) SVT_DO(checkNoStream(work / name));
+    for (const char* name : {"packs.bin", "index.bin", "ids.bin", "words.bin", "city.json"})
+        SVT_DO(checkNoStream(work / name));
+    SVT_TRY(words, WordsWriter::create(work / "words.bin"));
     Merging merged;
     std::size_t missing = 0;
     for (std::uint32_t number = 0; number < plan.packs; ++number) {
@@ -305,6 +335,7 @@ Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& pl
         appendBytes(merged.packs, report->bytes, digestFromHex(report->sha256));
         SVT_TRY(pack, Pack::open(packPath(work, number), plan.packDigests[number]));
         addPack(*pack, number, plan.options.spacing, merged);
+        SVT_DO(addWords(*pack, threads, *words));
     }
     SVT_DO(LevelPacks(work, plan, merged).run(threads, progress));
     const std::string index = indexBytes(merged.entries), ids = idsBytes(std::move(merged.ids));
@@ -312,8 +343,9 @@ Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& pl
                                      {"index.bin", &index},
                                      {"ids.bin", &ids}})
         SVT_DO(writeFileAtomically(work / name, *text));
+    SVT_TRY(proof, words->finish());
     // Last: while it is the one before, it names other files, and the city is merged again.
-    SVT_TRY(written, writeFileAtomically(work / "city.json", cityJson(plan, status, merged, index, ids)));
+    SVT_TRY(written, writeFileAtomically(work / "city.json", cityJson(plan, status, merged, index, ids, *proof)));
     if (status.isUpdate) SVT_DO(publishUpdate(folder));
     return status;
 }

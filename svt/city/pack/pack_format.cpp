@@ -125,10 +125,20 @@ Result<Pack> Pack::open(const std::filesystem::path& path, const std::string& co
 Result<volume::SemanticVolume> Pack::read(const PackMember& member) const {
     SVT_TRY(bytes, file_.read(member.offset, static_cast<std::size_t>(member.size)));
     auto volume = volume::readSvt(std::as_bytes(std::span(*bytes)));
-    if (!volume)
-        return badPack(path_, fmt::format("tile {}, detail {}, is damaged ({})", member.tile.toString(), member.detail,
-                                          volume.error().message()));
+    if (!volume) return damaged(member, volume.error());
     return volume;
+}
+
+Result<volume::LabelTable> Pack::readLabels(const PackMember& member) const {
+    SVT_TRY(bytes, file_.read(member.offset, static_cast<std::size_t>(member.size)));
+    auto blocks = volume::openSvt(std::as_bytes(std::span(*bytes)));
+    if (!blocks) return damaged(member, blocks.error());
+    return std::move(blocks->labels);
+}
+
+Error Pack::damaged(const PackMember& member, const Error& reason) const {
+    return badPack(path_, fmt::format("tile {}, detail {}, is damaged ({})", member.tile.toString(), member.detail,
+                                      reason.message()));
 }
 
 std::filesystem::path packPath(const std::filesystem::path& folder, std::uint32_t pack) {

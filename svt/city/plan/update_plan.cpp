@@ -181,7 +181,7 @@ Result<void> publishUpdate(const fs::path& folder) {
         if (fs::exists(folder / name, failed)) move(folder / name, update / "old" / name);
         move(update / name, folder / name);
     }
-    for (const char* name : {"packs.bin", "index.bin", "ids.bin", "city.json"})
+    for (const char* name : {"packs.bin", "index.bin", "ids.bin", "words.bin", "city.json"})
         if (fs::exists(update / name, failed)) move(update / name, folder / name);
     if (failed) return cannotWrite(folder, "the update cannot replace the city; merge again (svt city merge)");
     fs::remove_all(update, failed);

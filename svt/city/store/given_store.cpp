@@ -51,7 +51,9 @@ void CityBytes::refuse(const Range& range, std::string message) { held_->refused
 
 void CityBytes::forget() {
     held_->refused.clear();
-    std::erase_if(held_->bytes, [](const auto& kept) { return kept.first.name.starts_with("packs/"); });
+    std::erase_if(held_->bytes, [](const auto& kept) {
+        return kept.first.name.starts_with("packs/") || kept.first.name == "words.bin";
+    });
 }
 
 }  // namespace svt::city

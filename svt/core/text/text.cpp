@@ -81,6 +81,42 @@ std::string lowerAscii(std::string_view text) {
     return result;
 }
 
+std::string_view shortened(std::string_view text, std::size_t most) noexcept {
+    if (text.size() <= most) return text;
+    while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0u) == 0x80u) --most;
+    return text.substr(0, most);
+}
+
+char32_t lowerCase(char32_t code) noexcept {
+    const auto isIn = [code](char32_t first, char32_t last) { return first <= code && code <= last; };
+    if (isIn('A', 'Z') || (isIn(0xC0, 0xDE) && code != 0xD7) || (isIn(0x391, 0x3A9) && code != 0x3A2)) return code + 32;
+    if (isIn(0x410, 0x42F)) return code + 32;
+    if (isIn(0x400, 0x40F)) return code + 80;
+    if (code == 0x178) return 0xFF;   // Y with diaeresis
+    if (code == 0x1E9E) return 0xDF;  // capital sharp s
+    if (code == 0x130) return U'i';   // I with dot
+    if (code == 0x386) return 0x3AC;  // Greek vowels with accent
+    if (isIn(0x388, 0x38A)) return code + 37;
+    if (code == 0x38C) return 0x3CC;
+    if (isIn(0x38E, 0x38F)) return code + 63;
+    // Pairs of a capital and its small letter: first the blocks whose capitals are odd.
+    if (isIn(0x139, 0x148) || isIn(0x179, 0x17E)) return code % 2 == 1 ? code + 1 : code;
+    const bool isOfEvenPair = isIn(0x100, 0x137) || isIn(0x14A, 0x177) || isIn(0x218, 0x21F) || isIn(0x460, 0x481) ||
+                              isIn(0x48A, 0x4BF) || isIn(0x1E00, 0x1E95) || isIn(0x1EA0, 0x1EFF);
+    return isOfEvenPair && code % 2 == 0 ? code + 1 : code;
+}
+
+std::string lowerCase(std::string_view text) {
+    std::string result;
+    result.reserve(text.size());
+    while (!text.empty()) {
+        const auto [code, size] = firstCharacter(text);
+        appendUtf8(size == 0 ? U'\uFFFD' : lowerCase(code), result);
+        text.remove_prefix(std::max<std::size_t>(size, 1));
+    }
+    return result;
+}
+
 bool equalsIgnoringCase(std::string_view a, std::string_view b) noexcept {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [](char x, char y) { return lowerAscii(x) == lowerAscii(y); });

@@ -35,6 +35,22 @@ TEST(Ascii, DigitsAndBlanksAreThoseOfAsciiAlone) {
     }
 }
 
+TEST(LowerCase, CapitalsOfEuropeanAlphabetsHaveTheirSmallLetters) {
+    EXPECT_EQ(lowerCase("Hauptstraße 12A ÄÖÜ ÉÇÑ Ÿ ẞ"), "hauptstraße 12a äöü éçñ ÿ ß");
+    EXPECT_EQ(lowerCase("ŁÓDŹ ŽIŽKOV ŐRÜL ĐURO ȘTEFAN ĹĽŇ"), "łódź žižkov őrül đuro ștefan ĺľň");
+    EXPECT_EQ(lowerCase("ΑΘΗΝΑ Άγιος ΈΏ"), "αθηνα άγιος έώ");
+    EXPECT_EQ(lowerCase("МОСКВА ЁЖ Їжак Ґ"), "москва ёж їжак ґ");
+}
+
+TEST(LowerCase, OtherTextStaysAndInvalidBytesAreReplaced) {
+    EXPECT_EQ(lowerCase("×÷ ﬁ 東京 ß ð"), "×÷ ﬁ 東京 ß ð");
+    EXPECT_EQ(lowerCase(std::string("A\xFF"
+                                    "B")),
+              "a\xEF\xBF\xBD"
+              "b");
+    for (char32_t code = 0; code < 0x3000; ++code) EXPECT_EQ(lowerCase(lowerCase(code)), lowerCase(code)) << int(code);
+}
+
 TEST(Ascii, OnlyItsLettersChangeCase) {
     EXPECT_EQ(lowerAscii("EG Küche ÄÖ [@Z]"), "eg küche ÄÖ [@z]");
     EXPECT_TRUE(equalsIgnoringCase("EG", "eg"));

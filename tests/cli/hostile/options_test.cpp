@@ -242,7 +242,7 @@ TEST_F(PipesInFolders, AreErrorsOfWhoReadsACity) {
                                  {"render", "tried", "--size", "32x32", "-o", "o.png"},
                                  {"publish", "tried", "--viewer", "page", "-o", "o"},
                                  {"city-extract", "tried", "--box=-1e7,-1e7,-1e7,1e7,1e7,1e7", "-o", "o.svt"}};
-    for (const char* name : {"city.json", "index.bin", "ids.bin", "packs.bin"})
+    for (const char* name : {"city.json", "index.bin", "ids.bin", "words.bin", "packs.bin"})
         for (const Arguments& arguments : readers) expectRefused("city", name, arguments, kInput);
     for (const Arguments& arguments : readers)
         if (arguments[0] != "city-info" && arguments[0] != "info")
@@ -262,7 +262,7 @@ TEST_F(PipesInFolders, AreErrorsOfWhoWritesACity) {
         expectRefused("city", name, {"city-task", "tried", "0"}, kOutput);
         expectRefused("city", name, {"city-run", "tried"}, kInput);
     }
-    for (const char* name : {"packs.bin", "index.bin", "ids.bin", "city.json"})
+    for (const char* name : {"packs.bin", "index.bin", "ids.bin", "words.bin", "city.json"})
         expectRefused("city", name, {"city-merge", "tried"}, kOutput);
 }
 

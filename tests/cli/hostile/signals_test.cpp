@@ -169,7 +169,7 @@ TEST_F(Signals, LeaveNothingOfACity) {
     runLong({"city-plan", "models", "-o", "city", "--spacing", "1", "--pack-seconds", "0.05"});
     for (const int signal : kEndingSignals)
         expectNothingLeft({"city-run", "city", "--jobs", "2"}, folder / "city", signal, [&] {
-            for (const char* part : {"packs", "reports", "city.json", "index.bin", "ids.bin", "packs.bin"})
+            for (const char* part : {"packs", "reports", "city.json", "index.bin", "ids.bin", "words.bin", "packs.bin"})
                 fs::remove_all(folder / "city" / part);
         });
     // What is done stays, and the same command goes on from there.

@@ -4,7 +4,7 @@ import { createReadStream, existsSync, readFileSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join } from "node:path";
 import { after, before, describe, it } from "node:test";
-import { page as pageFolder, policy, svt, svtServe } from "./harness.mjs";
+import { page as pageFolder, policy, svt, svtJson, svtServe } from "./harness.mjs";
 import { scratch, Visit } from "./visit.mjs";
 
 const { at, drop } = scratch("svt-city-test-");
@@ -164,9 +164,53 @@ describe("A city on the page", () => {
     await page.getByRole("button", { name: "Highlight", exact: true }).first().waitFor();
     assert.equal(await page.getByRole("button", { name: "Cut away to it" }).count(), 0, "cities have no cutaway");
     await page.fill("#search", "nobody");
-    await page.getByText("to search for this id in the whole city").waitFor();
+    await page.getByText("No building of the city has these words").waitFor();
     await page.press("#search", "Enter");
     await page.getByText("the city has no building with the id 'nobody'").first().waitFor();
+  });
+
+  it("finds buildings of the whole city by words, as the command does, with few requests", async () => {
+    const server = started(await serveCity());
+    const asked = await open(server.url);
+    await complete();
+    const found = page.locator("svt-city-search");
+    const search = async (words) => {
+      const { count, buildings } = svtJson("city", "find", at("town"), words, "--json", "--most", "50");
+      await page.fill("#search", words);
+      await found.getByText(new RegExp(`^${count} in the whole city`)).waitFor();
+      assert.equal(await found.locator("li").count(), buildings.length);
+      return buildings;
+    };
+    const buildings = await search("roofType=1000");
+    assert.ok(buildings.length > 1);
+    assert.ok(asked.filter(({ file }) => file === "words.bin").length <= 3, "the fence, words and buildings");
+    const last = buildings.at(-1);
+    await found.locator("li button").last().click();
+    await page.waitForFunction((id) => document.querySelector("svt-app").session.selection.properties?.id === id, last.id);
+    assert.equal(await found.locator("li").count(), buildings.length, "the list stays while other tiles come");
+    // By the keyboard: Enter goes to the first one, where no visible building has the words.
+    const [first] = await search("storeysAboveGround=3 roofType=1000");
+    await page.press("#search", "Enter");
+    await page.waitForFunction((id) => document.querySelector("svt-app").session.selection.properties?.id === id, first.id);
+    assert.deepEqual(visit.problems, []);
+  });
+
+  it("states where words cannot be searched: in cities of earlier programs, and where the index is damaged", async () => {
+    /** @type {[Parameters<typeof serveCity>[0], RegExp][]} */
+    const kSpoiled = [
+      [(path) => (path.endsWith("words.bin") ? { status: 404, body: "" } : null), /words/],
+      [
+        (path, _first, _last, part) => (path.endsWith("words.bin") ? { body: Buffer.from(part.map((byte) => byte ^ 255)) } : null),
+        /damaged/,
+      ],
+    ];
+    for (const [spoil, said] of kSpoiled) {
+      const server = started(await serveCity(spoil));
+      await open(server.url);
+      await complete();
+      await page.fill("#search", "roofType=1000");
+      await page.locator("svt-city-search .error").getByText(said).waitFor();
+    }
   });
 
   it("shows the rest where tiles are damaged, cut off or missing", async () => {

@@ -200,6 +200,14 @@ export interface CityLook {
   heap: number;
 }
 
+/** Buildings of a city that a search found. */
+export interface CityFound {
+  /** Number of all buildings that were found. */
+  count: number;
+  /** The first ones. */
+  buildings: { id: string; name: string; class: string; address: string }[];
+}
+
 export interface CityOptions {
   /** Permitted width of voxels in pixels. */
   pixels: number;
@@ -334,6 +342,8 @@ export interface Engine extends LibraryCalls {
   followCity(files: CityBytes, scene: Scene, size: [number, number], options: CityOptions): Promise<CityLook>;
   /** A camera that shows a building of the open city. Reads two ranges of ids.bin, and the building's tile. */
   findInCity(files: CityBytes, id: string, camera: SceneCamera, aspect: number): Promise<SceneCamera>;
+  /** Buildings of the open city with all words in their names and attributes. Reads pages of words.bin. */
+  searchCity(files: CityBytes, words: string, most: number): Promise<CityFound>;
 
   /**
    * Draws into the engine's canvas at `width` x `height` pixels (the canvas is scaled by CSS).

@@ -67,6 +67,7 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
     openCity: refuse,
     followCity: refuse,
     findInCity: refuse,
+    searchCity: refuse,
     compose: (scene) => Promise.resolve(scene),
     pick: () => Promise.resolve(null),
     along: () => Promise.resolve([]),

@@ -41,10 +41,6 @@ const kTexts = {
   cityFetchingAgain: ["Fetching again", "Wird erneut geholt"],
   cityAllThere: ["The missing tiles have come.", "Die fehlenden Kacheln sind da."],
   cityStopped: ["No finer tiles of the city", "Keine feineren Kacheln der Stadt"],
-  cityFind: [
-    "Press Enter to search for this id in the whole city.",
-    "Mit der Eingabetaste in der ganzen Stadt nach dieser Kennung suchen.",
-  ],
   cityNoRanges: [
     "{name}: the server sends whole files instead of parts. A city needs a server with range requests (svt serve, nginx, Apache, S3).",
     "{name}: Der Server sendet ganze Dateien statt Teilen. Eine Stadt braucht einen Server mit Bereichsanfragen (svt serve, nginx, Apache, S3).",

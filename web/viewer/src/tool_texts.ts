@@ -102,6 +102,13 @@ const kToolTexts = {
     "Copied. The link has {n} characters; some programs shorten such links. A file of bookmarks is safer.",
     "Kopiert. Der Link hat {n} Zeichen; manche Programme kürzen solche Links. Eine Datei mit Lesezeichen ist sicherer.",
   ],
+  cityFound: ["{n} in the whole city", "{n} in der ganzen Stadt"],
+  cityFoundFirst: ["{n} in the whole city; these are the first {most}", "{n} in der ganzen Stadt; dies sind die ersten {most}"],
+  cityNone: [
+    "No building of the city has these words; Enter searches for an id.",
+    "Kein Gebäude der Stadt hat diese Wörter; die Eingabetaste sucht nach einer Kennung.",
+  ],
+  cityHits: ["Buildings that were found", "Gefundene Gebäude"],
 } as const satisfies Record<string, readonly [string, string]>;
 
 export type ToolTextKey = keyof typeof kToolTexts;

@@ -3,7 +3,7 @@
  * sees, and replaces the first worker. So pictures never wait for tiles.
  */
 
-import type { CityLook, Engine, VolumeInfo } from "../engine";
+import type { CityFound, CityLook, Engine, VolumeInfo } from "../engine";
 import { batch, effect, Observable, untracked } from "../observable";
 import type { Selection } from "../session/selection";
 import type { ShownPicture } from "../session/shown_picture";
@@ -126,7 +126,12 @@ export class CityStream extends Observable {
     });
   }
 
-  /** Searches the whole city for a building, and moves the camera to it. */
+  /** Searches the whole city for buildings by words of names and attributes. */
+  search(words: string, most: number): Promise<CityFound> {
+    return this.engine.searchCity(this.files, words, most);
+  }
+
+  /** Searches the whole city for a building by its id, and moves the camera to it. */
   async find(id: string): Promise<void> {
     const { view, selection, messages } = this.host;
     const { scene } = view.describe(view.size, 1);

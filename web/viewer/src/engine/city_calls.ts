@@ -10,7 +10,7 @@ interface Asked {
 /** A call reads page after page of an index, which has few levels; then it requests tiles. */
 const kMostRounds = 60;
 
-export async function withBytes<N extends "cityLook" | "cityFind">(
+export async function withBytes<N extends "cityLook" | "cityFind" | "citySearch">(
   worker: Asked,
   files: CityBytes,
   name: N,

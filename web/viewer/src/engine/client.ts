@@ -2,6 +2,7 @@
 import { callsBy, kCancelled } from "../engine";
 import type {
   CityBytes,
+  CityFound,
   CityLook,
   CityOptions,
   Engine,
@@ -212,6 +213,10 @@ class WorkerEngine {
 
   findInCity(files: CityBytes, id: string, camera: SceneCamera, aspect: number): Promise<SceneCamera> {
     return withBytes(this.main, files, "cityFind", () => [id, camera, aspect]);
+  }
+
+  searchCity(files: CityBytes, words: string, most: number): Promise<CityFound> {
+    return withBytes(this.main, files, "citySearch", () => [words, most]);
   }
 
   private async startSpare(): Promise<Connection> {

@@ -1,5 +1,6 @@
 /** Messages between page and worker. A request has one answer, matched by id; open() reports progress before it. */
 import type {
+  CityFound,
   CityLook,
   CityOptions,
   EngineError,
@@ -23,6 +24,7 @@ interface OwnCalls {
   draw(scene: Scene, width: number, height: number): Drawn;
   cityLook(isNew: boolean, scene: Scene | null, width: number, height: number, options: CityOptions): CityLook | CityNeeds;
   cityFind(id: string, camera: SceneCamera, aspect: number): SceneCamera | CityNeeds;
+  citySearch(words: string, most: number): CityFound | CityNeeds;
   cityGive(given: GivenRow[], bytes: ArrayBuffer): null;
   cityDrop(): null;
 }

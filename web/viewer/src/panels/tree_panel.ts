@@ -6,6 +6,7 @@
 import { css, html, nothing, unsafeCSS } from "lit";
 import { repeat } from "lit/directives/repeat.js";
 import type { EngineError } from "../engine";
+import type { CitySearch } from "../city/city_search";
 import { ancestors, labelOf } from "../state/feature_index";
 import { ofClass, ofId, ofSubtree } from "../state/queries";
 import { SeenCounts, subtree, type Seen } from "../state/visibility";
@@ -196,7 +197,8 @@ export class TreePanel extends Part {
         }
         ${
           this.search && this.tab === "structure"
-            ? html`<div class="small quiet" role="status">${this.rows.matches ? t("found", { n: this.rows.matches }) : session.model.city ? t("cityFind") : t("nothingFound")}</div>`
+            ? html`<div class="small quiet" role="status">${this.rows.matches ? t("found", { n: this.rows.matches }) : session.model.city ? nothing : t("nothingFound")}</div>
+              ${this.citySearch()}`
             : nothing
         }
       </header>
@@ -226,6 +228,13 @@ export class TreePanel extends Part {
         <div id="query-answer" role="status" class=${this.error ? "error" : "small quiet"}>${this.error || this.answer}</div>
       </footer>
     `;
+  }
+
+  /** Buildings of the whole city, of which the tree has only the visible tiles. */
+  private citySearch() {
+    if (!this.session.model.city || this.search.trim().length < 2) return nothing;
+    void import("../city/city_search");
+    return html`<svt-city-search .session=${this.session} .words=${this.search}></svt-city-search>`;
   }
 
   private tree() {
@@ -433,7 +442,11 @@ export class TreePanel extends Part {
     if (event.key !== "ArrowDown" && event.key !== "Enter") return;
     const { index } = this.session.volume;
     const { city } = this.session.model;
-    if (city && event.key === "Enter" && !this.rows.matches) return void city.find(this.search.trim());
+    if (city && event.key === "Enter" && !this.rows.matches) {
+      const hits = this.renderRoot.querySelector<CitySearch>("svt-city-search");
+      if (!hits?.goToFirst()) void city.find(this.search.trim());
+      return;
+    }
     const words = this.search.toLowerCase();
     const first =
       this.rows.shown.find((i) => `${labelOf(index.features[i]!)} ${index.features[i]!.class}`.toLowerCase().includes(words)) ??
