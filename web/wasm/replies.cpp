@@ -213,6 +213,9 @@ std::string propertiesIn(Session& session, std::uint32_t index, Vec3d by) {
             if (const auto* number = std::get_if<double>(&only->value))
                 json["numbers"][only->name] = {{"value", *number}, {"unit", only->unit}};
     json["voxelVolume"] = double(measure.own.voxels) * volume.grid.voxelVolume();
+    // Half a voxel along the surface, as analyze::KnownVolume counts it. Tiles of a city have other voxels than their frame.
+    const Vec3d spacing = volume.grid.spacing();
+    json["voxelBound"] = measure.own.area * std::max({spacing.x, spacing.y, spacing.z}) / 2;
     json["modelVolume"] = isClosed ? Json(found->volume) : Json(nullptr);
     const std::vector<double>& floors = session.floorAreas();
     json["floorArea"] = index < floors.size() && floors[index] > 0 ? Json(floors[index]) : Json(nullptr);

@@ -137,22 +137,22 @@ void appendPages(std::string& to, const std::vector<WordsPage>& pages) {
 struct WordsWriter::State {
     State(AtomicFile target, std::size_t memory) : file(std::move(target)), memoryBytes(memory), packer(9) {}
 
-    Result<void> write(std::string_view bytes) {
-        sum.add(bytes);
-        return file.write(bytes);
+    Result<void> write(std::string_view text) {
+        sum.add(text);
+        return file.write(text);
     }
-    Result<void> writePage(std::string_view page, std::string first, std::vector<WordsPage>& pages) {
-        pages.push_back({file.size(), page.size(), idHash(page), std::move(first)});
-        return write(page);
+    Result<void> writePage(std::string_view text, std::string firstWord, std::vector<WordsPage>& pages) {
+        pages.push_back({file.size(), text.size(), idHash(text), std::move(firstWord)});
+        return write(text);
     }
     Result<void> endBuildings() {
         if (buildings.empty()) return {};
         const auto packed = packer.pack(std::as_bytes(std::span(buildings)));
-        std::string page;
-        appendVarint(page, buildings.size());
-        page.append(reinterpret_cast<const char*>(packed.data()), packed.size());
+        std::string text;
+        appendVarint(text, buildings.size());
+        text.append(reinterpret_cast<const char*>(packed.data()), packed.size());
         buildings.clear();
-        return writePage(page, {}, fence.buildings);
+        return writePage(text, {}, fence.buildings);
     }
 
     // The words in memory, in order.

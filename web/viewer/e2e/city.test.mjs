@@ -160,6 +160,8 @@ describe("A city on the page", () => {
     await page.waitForFunction((id) => document.querySelector("svt-app").session.selection.properties?.id === id, kId);
     assert.ok(asked.filter(({ file }) => file === "ids.bin").length <= 2);
     const properties = await inPage("s.selection.properties");
+    // Half a voxel of the tile along the surface, not one of the frame of the whole city.
+    assert.ok(Math.abs(properties.voxelBound - properties.surface / 4) < 1e-6, JSON.stringify(properties));
     assert.ok(properties.surface > 50 && properties.box.high[2] > properties.box.low[2], JSON.stringify(properties));
     await page.getByRole("button", { name: "Highlight", exact: true }).first().waitFor();
     assert.equal(await page.getByRole("button", { name: "Cut away to it" }).count(), 0, "cities have no cutaway");

@@ -103,6 +103,8 @@ export interface FeatureProperties {
   numbers: Record<string, { value: number; unit: string }>;
   /** From voxels, m3; the model's own volume if its solid is closed. */
   voxelVolume: number;
+  /** By how much voxelVolume may be off, m3: half a voxel along the surface. */
+  voxelBound: number;
   modelVolume: number | null;
   /** Floor area of a room, m2; null: not a room, or the model has no levels. */
   floorArea: number | null;

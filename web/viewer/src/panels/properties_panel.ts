@@ -134,10 +134,9 @@ export class PropertiesPanel extends Part {
     `;
   }
 
-  /** The volume of a closed mesh. Below, or if the mesh is open, that of the voxels: half a voxel along the surface is its bound. */
-  private volume({ modelVolume, voxelVolume, surface }: FeatureProperties) {
-    const spacing = Math.max(...(this.session.volume.info?.spacing ?? [0]));
-    const voxels = voxelVolume > 0 ? t("byVoxels", { value: `${number(voxelVolume, 3)} ± ${number((surface * spacing) / 2, 3)} m³` }) : "";
+  /** The volume of a closed mesh. Below, or if the mesh is open, that of the voxels with its bound. */
+  private volume({ modelVolume, voxelVolume, voxelBound }: FeatureProperties) {
+    const voxels = voxelVolume > 0 ? t("byVoxels", { value: `${number(voxelVolume, 3)} ± ${number(voxelBound, 3)} m³` }) : "";
     if (modelVolume === null) return voxels ? html`<dt>${t("key_volume")}</dt><dd id="volume">${voxels}</dd>` : nothing;
     return html`<dt>${t("key_volume")}</dt><dd id="volume">${number(modelVolume, 3)} m³${voxels ? html`<small>${voxels}</small>` : nothing}</dd>`;
   }
