@@ -186,6 +186,13 @@ TEST_F(CityFolder, IsSearchedByWords) {
     EXPECT_NE(few.err.find("the first 2 are listed"), std::string::npos) << few.err;
     EXPECT_EQ(run({"city", "find", "town", "..."}).exitCode, 2);
     EXPECT_EQ(jsonOf({"city", "find", "town", "nobody", "--json"}).at("count"), 0);
+    // As the shell passes name="Sample house" house.
+    runWell({"sample", "house", "-o", "house.gml"});
+    runWell({"city", "plan", "house.gml", "-o", "one", "--spacing", "1", "-q"});
+    runWell({"city", "run", "one"});
+    EXPECT_EQ(jsonOf({"city", "find", "one", "name=Sample house", "function=res", "--json"}).at("count"), 1);
+    EXPECT_EQ(jsonOf({"city", "find", "one", "name=\"Sample house\" gable", "--json"}).at("count"), 1);
+    EXPECT_EQ(jsonOf({"city", "find", "one", "name=Sample", "house", "--json"}).at("count"), 0) << "not the whole name";
 }
 
 TEST_F(CityFolder, HasTheVoxelsOfTheWholeModel) {

@@ -29,11 +29,20 @@ struct CityFindArguments {
     bool json = false, csv = false;
 };
 
+// One argument is one word: the shell has removed the quotes around the blanks of street="Main Road".
+std::string searchText(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) {
+        const bool isQuoted = word.find_first_of(" \t") != std::string::npos && word.find('=') != std::string::npos &&
+                              word.find('"') == std::string::npos;
+        text += (text.empty() ? "" : " ") + (isQuoted ? "\"" + word + "\"" : word);
+    }
+    return text;
+}
+
 Result<int> runCityFind(const CityFindArguments& arguments) {
-    std::string words;
-    for (const std::string& word : arguments.words) words += (words.empty() ? "" : " ") + word;
     SVT_TRY(city, city::City::open(arguments.folder));
-    SVT_TRY(found, city->search(words, arguments.most));
+    SVT_TRY(found, city->search(searchText(arguments.words), arguments.most));
     const auto textOrNone = [](const std::string& text) { return text.empty() ? Cell() : Cell(text); };
     Table table{{{"id", "id"}, {"name", "name"}, {"class", "class"}, {"address", "address"}}, {}};
     for (const auto& building : found->buildings)

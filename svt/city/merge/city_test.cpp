@@ -4,15 +4,18 @@
 #include <svt/city/city_folder.hpp>
 #include <svt/city/city_levels.hpp>
 #include <svt/city/city_view.hpp>
+#include <svt/city/merge/city_proof.hpp>
 #include <svt/city/merge/index_file.hpp>
 #include <svt/city/search/words.hpp>
 #include <svt/city/store/store.hpp>
 #include <svt/city/tile/tile_builder.hpp>
+#include <svt/core/bytes.hpp>
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/samples/city_sample.hpp>
 #include <svt/volume/svt_file.hpp>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -287,6 +290,33 @@ TEST_F(SmallCity, LosesNoBuildingAtAnyDetail) {
 }
 
 // A call whose bytes come later names them, and gives the same once they are there.
+TEST_F(SmallCity, RefusesAnIndexOfWordsWithImpossibleCounts) {
+    write(folder / "files", samples::CityProfile::Berlin, 1);
+    build(plan());
+    // No page of buildings, and a page of words whose word has building 5 of 2^64 - 1.
+    const std::string page("\0\1a\1\5", 5);
+    std::string words("svtwords\1\0\0\0\0\1\0\0", 16);
+    words += page;
+    const std::uint64_t fenceAt = words.size();
+    std::string fence("\0\1\5", 3);
+    appendBytes(fence, idHash(page));
+    fence += std::string("\1a", 2);
+    words += fence;
+    test::writeText(folder / "city/words.bin", words);
+    auto json = nlohmann::ordered_json::parse(bytes("city.json"));
+    for (const std::uint64_t count : {std::uint64_t{6}, ~std::uint64_t{0}}) {
+        json["words"]["bytes"] = words.size();
+        json["words"]["sha256"] = hexOf(digestOf(words));
+        json["words"]["count"] = count;
+        json["words"]["fenceAt"] = fenceAt;
+        json["words"]["fence"] = fmt::format("{:016x}", idHash(fence));
+        test::writeText(folder / "city/city.json", sealedJson(json));
+        const auto found = open().search("a", 5);
+        ASSERT_FALSE(found) << count;
+        EXPECT_EQ(found.error().code(), Code::BadCity);
+    }
+}
+
 // All words of all tiles, read without the index.
 std::vector<WordsOfBuilding> wordsOfAll(const City& city) {
     std::vector<WordsOfBuilding> all;

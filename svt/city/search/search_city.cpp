@@ -12,12 +12,13 @@ namespace svt::city {
 namespace {
 
 constexpr const char* kFile = "words.bin";
-constexpr std::uint64_t kMostBytes = std::uint64_t{16} << 20;  // of pages of one word
+constexpr std::uint64_t kMostBytes = std::uint64_t{16} << 20;  // of the pages of a beginning
 constexpr std::size_t kMostFence = std::size_t{64} << 20;
 
 }  // namespace
 
-/// Reads words.bin. On a store that fetches, each step asks for all of its pages before it fails.
+/// Reads words.bin. Each step reads all of its pages before it fails, so that a web page fetches them in one round
+/// (CityBytes).
 class WordSearch {
 public:
     explicit WordSearch(const City& city) : city_(city) {}
@@ -51,7 +52,8 @@ private:
         if (!proof || !proof->words)
             return city_.damaged(kFile, "the city has no index of words, because an earlier program merged it");
         words_ = *proof->words;
-        if (words_.fenceAt > words_.bytes || words_.bytes - words_.fenceAt > kMostFence)
+        // Buildings have 32-bit numbers.
+        if (words_.count > 0xFFFFFFFF || words_.fenceAt > words_.bytes || words_.bytes - words_.fenceAt > kMostFence)
             return city_.damaged(kFile, "city.json names an impossible index of words");
         SVT_TRY(bytes, city_.store_->read(kFile, words_.fenceAt, words_.bytes - words_.fenceAt));
         auto fence = idHash(*bytes) == words_.fence ? takeFence(*bytes, words_.fenceAt) : std::nullopt;
@@ -82,7 +84,7 @@ private:
         return all;
     }
 
-    // Lets a store that fetches ask for everything at once.
+    // Reads all pages, and keeps none: CityBytes notes each missing one.
     Result<void> request(const std::vector<Pages>& all) const {
         std::optional<Error> missing;
         for (const Pages& pages : all)

@@ -51,7 +51,7 @@ std::string pairWord(std::string_view name, std::string_view value) {
     return std::string(shortened(word, kMostWordBytes));
 }
 
-// The value as a user would search for it; nothing for numbers with decimals, which nobody does.
+// The value as text; nothing for numbers with decimals, which have no words.
 std::optional<std::string> searchedValue(const AttributeValue& value) {
     if (const double* number = std::get_if<double>(&value))
         if (*number != std::floor(*number) || std::abs(*number) > 1e15) return std::nullopt;
@@ -72,8 +72,11 @@ void addWordsOf(const volume::Label& label, std::vector<std::string>& to) {
 
 WordsOfBuilding wordsOfBuilding(const volume::LabelTable& labels, std::uint32_t building) {
     const volume::Label& own = labels.labels[building];
-    WordsOfBuilding result{
-        own.id, own.name, own.className, analyze::postalAddress(own), {pairWord("class", own.className)}};
+    WordsOfBuilding result{own.id,
+                           own.name,
+                           own.className,
+                           analyze::postalAddress(own),
+                           {pairWord("class", own.className), pairWord("name", own.name)}};
     addWordsOf(own, result.words);
     for (std::uint32_t part = building + 1; part < own.subtreeEnd; ++part) {
         const std::string& name = labels.labels[part].className;

@@ -21,7 +21,8 @@ struct WordsOfBuilding {
 };
 
 /// Words of a building: its name, its attributes, and those of its parts and units (classes that end in Part or Unit).
-/// An attribute has each word of its text, and one word "name=value". Numbers with decimals have no words.
+/// An attribute has each word of its text, and one word "name=value", as have class and name. Numbers with decimals have
+/// no words.
 [[nodiscard]] WordsOfBuilding wordsOfBuilding(const volume::LabelTable& labels, std::uint32_t building);
 
 /// A word of a query.

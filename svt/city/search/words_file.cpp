@@ -55,7 +55,7 @@ struct Postings {
     }
 };
 
-// A word of a temporary file, and its way back.
+// Appends a word as temporary files have it; Run reads it.
 void appendRun(std::string& to, const std::string& word, const Postings& postings) {
     appendText(to, word);
     appendBytes(to, postings.count, postings.first, postings.last);
@@ -169,6 +169,8 @@ struct WordsWriter::State {
     }
     Result<void> spill() {
         if (!folder) folder.emplace();
+        if (folder->path().empty())
+            return Error(Code::CannotWrite, "there is no temporary folder for the index of words; set TMPDIR");
         const std::filesystem::path path = folder->path() / fmt::format("words-{}", runs.size());
         SVT_TRY(run, AtomicFile::create(path));
         std::string text;

@@ -47,6 +47,7 @@ struct WordRow {
 /// Memory: `memoryBytes` and a page. Words beyond that are sorted into temporary files.
 class WordsWriter {
 public:
+    /// \return the writer, or CannotWrite, DiskFull as AtomicFile::create()
     [[nodiscard]] static Result<WordsWriter> create(const std::filesystem::path& path,
                                                     std::size_t memoryBytes = std::size_t{256} << 20);
     WordsWriter(WordsWriter&&) noexcept;

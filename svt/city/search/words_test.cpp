@@ -41,8 +41,8 @@ TEST(Words, AreThoseOfNamesAndAttributesOfABuildingAndItsParts) {
     EXPECT_EQ(building.name, "Rathaus (alt)");
     EXPECT_EQ(building.address, "Äußere  Hauptstraße");
     EXPECT_EQ(building.words, (Words{"12", "1965", "4", "alt", "b", "class=building", "gabled", "hauptstraße",
-                                     "islisted=true", "rathaus", "rooftype=gabled 12-b", "storeys=4",
-                                     "street=äußere hauptstraße", "yearofconstruction=1965", "äußere"}));
+                                     "islisted=true", "name=rathaus (alt)", "rathaus", "rooftype=gabled 12-b",
+                                     "storeys=4", "street=äußere hauptstraße", "yearofconstruction=1965", "äußere"}));
 }
 
 TEST(Words, OfLongTextsAreCutBeforeACharacter) {

@@ -1,5 +1,6 @@
 #include <svt/drawing/opening_schedule.hpp>
 
+#include <svt/analyze/stated_facts.hpp>
 #include <svt/core/text.hpp>
 #include <svt/drawing/levels/level_parts.hpp>
 #include <svt/model/classes.hpp>
@@ -12,19 +13,11 @@
 #include <limits>
 #include <map>
 #include <tuple>
-#include <variant>
 
 namespace svt::drawing {
 namespace {
 
 using volume::kNoLabel;
-
-std::string openingText(const volume::Label& label, std::string_view name) {
-    for (const Attribute& attribute : label.attributes)
-        if (attribute.name == name)
-            if (const std::string* text = std::get_if<std::string>(&attribute.value)) return *text;
-    return {};
-}
 
 // "Family:Type" of a name such as "Family:Type:285860", as some programs write it.
 std::string typeInName(const std::string& name) {
@@ -37,7 +30,7 @@ std::string typeInName(const std::string& name) {
 std::string typeOf(const volume::Label& label) {
     if (std::string type = typeInName(label.name); !type.empty()) return type;
     for (const std::string_view name : {"type", "objectType", "function"})
-        if (std::string text = openingText(label, name); !text.empty()) return text;
+        if (std::string text = analyze::statedText(label, name); !text.empty()) return text;
     return {};
 }
 
@@ -204,7 +197,8 @@ std::optional<double> clearWidthOf(const volume::Label& label, const std::option
         if (const auto width = numberOf(label, attribute.name); width > 0.0) return width;
     }
     const auto lining = numberOf(label, "liningThickness");
-    const std::string operation = openingText(label, "operationType");  // SWING_FIXED_LEFT: one of two panels swings
+    const std::string operation =
+        analyze::statedText(label, "operationType");  // SWING_FIXED_LEFT: one of two panels swings
     const auto has = [&](std::string_view word) { return operation.find(word) != std::string::npos; };
     if (!has("SWING") || has("FIXED") || !statedWidth || !lining || !(*statedWidth > 2 * *lining)) return std::nullopt;
     return roundedSize(*statedWidth - 2 * *lining);

@@ -177,7 +177,7 @@ describe("A city on the page", () => {
     await complete();
     const found = page.locator("svt-city-search");
     const search = async (words) => {
-      const { count, buildings } = svtJson("city", "find", at("town"), words, "--json", "--most", "50");
+      const { count, buildings } = svtJson("city", "find", at("town"), ...words.split(" "), "--json", "--most", "50");
       await page.fill("#search", words);
       await found.getByText(new RegExp(`^${count} in the whole city`)).waitFor();
       assert.equal(await found.locator("li").count(), buildings.length);
@@ -192,6 +192,10 @@ describe("A city on the page", () => {
     assert.equal(await found.locator("li").count(), buildings.length, "the list stays while other tiles come");
     // By the keyboard: Enter goes to the first one, where no visible building has the words.
     const [first] = await search("storeysAboveGround=3 roofType=1000");
+    await page.fill("#search", "nobody at all");
+    await found.getByText("No building of the city has these words").waitFor();
+    // Enter waits for the answer to the words that the field has.
+    await page.fill("#search", "storeysAboveGround=3 roofType=1000");
     await page.press("#search", "Enter");
     await page.waitForFunction((id) => document.querySelector("svt-app").session.selection.properties?.id === id, first.id);
     assert.deepEqual(visit.problems, []);

@@ -24,6 +24,8 @@ export class CitySearch extends Part {
   declare error: string;
   private timer = 0;
   private asked = "";
+  /** The words to which `found` and `error` belong. */
+  private answered = "";
 
   static override styles = [
     controls,
@@ -48,8 +50,9 @@ export class CitySearch extends Part {
   }
 
   override willUpdate(changed: Map<string, unknown>): void {
-    if (!changed.has("words") || this.words.trim() === this.asked.trim()) return;
+    if (!changed.has("words")) return;
     clearTimeout(this.timer);
+    if (this.words === this.asked) return;
     this.timer = window.setTimeout(() => void this.ask(), kAfter);
   }
 
@@ -57,17 +60,20 @@ export class CitySearch extends Part {
     const { words, session } = this;
     const { city } = session.model;
     if (!city) return;
+    clearTimeout(this.timer);
     this.asked = words;
     const result = await city.search(words, kMost).catch((error: EngineError) => error);
     // Another search has begun meanwhile.
     if (this.asked !== words) return;
+    this.answered = words;
     const isError = "code" in result;
     this.found = isError ? null : result;
     this.error = isError && result.code !== kCancelled ? result.message : "";
   }
 
-  /** Shows the first building. Returns false if there is none. */
-  goToFirst(): boolean {
+  /** Shows the first building of the present words. Resolves to false if there is none. */
+  async goToFirst(): Promise<boolean> {
+    if (this.answered !== this.words) await this.ask();
     const [first] = this.found?.buildings ?? [];
     if (first) this.goTo(first.id);
     return first !== undefined;

@@ -204,7 +204,7 @@ export class Viewing {
 
   private watch(): void {
     const { host, session } = this;
-    const { messages, picture, view, volume } = session;
+    const { messages, picture, view } = session;
     const watch = (run: () => void) => this.unwatch.push(effect(run));
     watch(() => {
       const { progress } = messages;
@@ -221,8 +221,8 @@ export class Viewing {
       if (isDrawn(session)) untracked(() => this.loadedNow());
     });
     watch(() => {
-      const mayHaveFaces = volume.info?.hasMeshes && !volume.isCity && view.now.surfaces !== "voxels";
-      if (mayHaveFaces && picture.quality === "fine") untracked(() => void session.prepareFaces());
+      const wantsFaces = view.mayHaveFaces && view.now.surfaces !== "voxels";
+      if (wantsFaces && picture.quality === "fine") untracked(() => void session.prepareFaces());
     });
     watch(() => {
       if (view.now.camera) untracked(() => this.cameraChanged());

@@ -7,6 +7,7 @@ import { css, html, nothing, unsafeCSS } from "lit";
 import { repeat } from "lit/directives/repeat.js";
 import type { EngineError } from "../engine";
 import type { CitySearch } from "../city/city_search";
+import type { CityStream } from "../city/city_stream";
 import { ancestors, labelOf } from "../state/feature_index";
 import { ofClass, ofId, ofSubtree } from "../state/queries";
 import { SeenCounts, subtree, type Seen } from "../state/visibility";
@@ -438,15 +439,20 @@ export class TreePanel extends Part {
     void this.updateComplete.then(() => this.renderRoot.querySelector<HTMLElement>(`#tab-${this.tab}`)?.focus());
   };
 
+  /** Goes to the first building with the words; without one, to that with the id. */
+  private async findInCity(city: CityStream): Promise<void> {
+    const { search } = this;
+    await import("../city/city_search");
+    const hits = this.renderRoot.querySelector<CitySearch>("svt-city-search");
+    const isFound = (await hits?.goToFirst()) ?? false;
+    if (!isFound && this.search === search) void city.find(search.trim());
+  }
+
   private readonly searchKey = (event: KeyboardEvent): void => {
     if (event.key !== "ArrowDown" && event.key !== "Enter") return;
     const { index } = this.session.volume;
     const { city } = this.session.model;
-    if (city && event.key === "Enter" && !this.rows.matches) {
-      const hits = this.renderRoot.querySelector<CitySearch>("svt-city-search");
-      if (!hits?.goToFirst()) void city.find(this.search.trim());
-      return;
-    }
+    if (city && event.key === "Enter" && !this.rows.matches) return void this.findInCity(city);
     const words = this.search.toLowerCase();
     const first =
       this.rows.shown.find((i) => `${labelOf(index.features[i]!)} ${index.features[i]!.class}`.toLowerCase().includes(words)) ??

@@ -137,10 +137,14 @@ export class View extends Observable {
     return described;
   }
 
-  /** Whether pictures on the screen may have the faces of the model. */
-  private get showsFaces(): boolean {
+  /** Whether the open model has faces to draw. */
+  get mayHaveFaces(): boolean {
     const { info, isCity } = this.volume;
-    return this.hasFaces === true && !isCity && (info?.hasMeshes ?? false);
+    return !isCity && (info?.hasMeshes ?? false);
+  }
+
+  private get showsFaces(): boolean {
+    return this.hasFaces === true && this.mayHaveFaces;
   }
 
   /** Whether selected features are tinted: not in effects, and not over colours that have a meaning. */
