@@ -6,7 +6,7 @@ import { describe, it } from "node:test";
 import { svt } from "./harness.mjs";
 import { withHouse } from "./visit.mjs";
 
-const { at, visit, open } = withHouse("modules");
+const { at, visit, address, open } = withHouse("modules");
 const { inPage, state, settled, eventually, tool, saved, drop, until } = visit;
 
 /** Names of the modules that the page has asked for. */
@@ -20,6 +20,7 @@ function watched() {
 }
 
 const kWhole = /\/svt(_threads)?-[^/]*\.(wasm|js)$/;
+const kFont = /\.ttf$/;
 const exported = () => saved(() => visit.page.getByRole("button", { name: "Export as SVG" }).click());
 
 async function cut() {
@@ -43,7 +44,8 @@ describe("modules", () => {
     await visit.firstImage();
     await eventually(async () => assert.deepEqual(asked, ["svt_view", "svt"]));
     await visit.page.waitForFunction(() => performance.getEntriesByName("svt-all-scripts").length > 0);
-    await visit.page.waitForLoadState("networkidle");
+    // The page has faces once the whole module and the font are there.
+    await until("s.view.hasFaces");
     await visit.page.context().setOffline(true);
     await cut();
     const { bytes } = await exported();
@@ -78,6 +80,32 @@ describe("modules", () => {
     assert.deepEqual([await inPage("s.volume.engine.pick(0.5, 0.5)"), await state()], before);
     assert.deepEqual(await owned(), [rooms[0]]);
     assert.deepEqual(visit.problems, []);
+  });
+
+  it("draw on without the font of names, and ask for it again", async () => {
+    await visit.begin();
+    await visit.page.context().route(kFont, (route) => route.abort());
+    await visit.page.goto(address());
+    await visit.firstImage();
+    await until("s.view.hasFaces");
+    await tool("look");
+    await visit.page.selectOption("#color-by", "class");
+    await visit.page.locator("#color-scale li").first().waitFor();
+    await settled();
+    assert.equal(await inPage("s.messages.message"), null, "the legend of the page needs no font");
+    await inPage("s.view.set({ selection: [s.volume.info.features.find(({ count }) => count > 0).id] })");
+    await settled();
+    // Not check(): the choice is taken back at once.
+    await visit.page.locator("#names").click();
+    await visit.message("the font of names cannot be loaded");
+    assert.equal((await state()).names, false);
+    assert.equal((await state()).colorBy, "class");
+    assert.ok(await inPage("s.view.hasFaces"));
+    await settled();
+    await visit.page.context().unroute(kFont);
+    await visit.page.locator("#names").check();
+    await settled();
+    assert.equal((await state()).names, true);
   });
 
   it("are asked for again after a failure, which changes nothing else", async () => {

@@ -59,7 +59,8 @@ export function makeCall(svt: SvtModule, name: string, args: readonly unknown[])
 }
 
 export function hasWords(scene: Scene): boolean {
-  return Boolean(scene.names?.length || scene.title || scene.colorBy || scene.scaleBar || scene.northArrow);
+  const hasLegend = scene.colorBy && scene.legend !== false;
+  return Boolean(scene.names?.length || scene.title || hasLegend || scene.scaleBar || scene.northArrow);
 }
 
 /** Whether the module must have the font before a call. */

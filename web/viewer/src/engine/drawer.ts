@@ -6,7 +6,7 @@
  * trial.
  */
 import type { SvtModule } from "../../../../build/web/svt.js";
-import type { EngineKind, Scene } from "../engine";
+import type { EngineError, EngineKind, Scene } from "../engine";
 import { hasWords } from "./calls";
 import { isEngineError } from "./errors";
 import type { Drawn } from "./protocol";
@@ -74,9 +74,14 @@ export class Drawer {
   /** Fetches the font once. */
   async fontBytes(): Promise<Uint8Array> {
     if (this.font) return this.font;
-    const response = await fetch(new URL("../../../../build/web/DejaVuSans.ttf", import.meta.url));
-    if (!response.ok) throw { code: "E101", message: `the font of names cannot be fetched (${response.status})` };
-    return (this.font = new Uint8Array(await response.arrayBuffer()));
+    try {
+      const response = await fetch(new URL("../../../../build/web/DejaVuSans.ttf", import.meta.url));
+      if (!response.ok) throw new Error(String(response.status));
+      return (this.font = new Uint8Array(await response.arrayBuffer()));
+    } catch (error) {
+      const message = `the font of names cannot be loaded (${(error as Error).message}); check the connection and try again`;
+      throw { code: "E101", message } satisfies EngineError;
+    }
   }
 
   /** Takes another module, with the same volume, and draws its last picture there, for picking. */

@@ -61,13 +61,18 @@ export class ShownPicture extends ViewPart {
         if (error.code === kFatal) {
           this.messages.fail(error);
           died(error);
-        } else if (error.code === kNotLoaded && view.hasFaces) {
+        } else if (error.code === kNotLoaded && view.hasFaces && this.wasDrawn(token as ViewState)) {
           // Another worker has begun, without a connection: voxels remain.
           view.hasFaces = false;
           view.redraw();
         } else this.refuse(error, token as ViewState);
       },
     });
+  }
+
+  /** Whether a picture of the same choice was drawn; pictures of a moving view have no faces. */
+  private wasDrawn(state: ViewState): boolean {
+    return this.drawable !== null && isSameChoice(state, this.drawable);
   }
 
   /** Takes back a choice that cannot be drawn, so that the picture goes on following the camera. */
