@@ -38,6 +38,16 @@ struct Utf8Character {
     return {code, static_cast<std::uint8_t>(size)};
 }
 
+/// The number of bytes at the beginning of `text` that are printable ASCII, and neither `quote` nor a backslash: text that
+/// quoted strings of JSON and STEP hold as it is.
+[[nodiscard]] constexpr std::size_t plainLength(std::string_view text, char quote) noexcept {
+    std::size_t length = 0;
+    while (length < text.size() && text[length] >= ' ' && text[length] <= '~' && text[length] != quote &&
+           text[length] != '\\')
+        ++length;
+    return length;
+}
+
 /// Appends a character as UTF-8.
 /// \param code  at most U+10FFFF
 void appendUtf8(char32_t code, std::string& to);

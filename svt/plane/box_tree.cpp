@@ -1,7 +1,6 @@
 #include <svt/plane/box_tree.hpp>
 
 #include <algorithm>
-#include <numeric>
 
 namespace svt::plane {
 namespace {
@@ -11,37 +10,40 @@ Vec3d centerOf(const Box3d& box) noexcept { return box.isEmpty() ? Vec3d{} : box
 }  // namespace
 
 BoxTree::BoxTree(std::vector<Box3d> boxes, Halving halving) : boxes_(std::move(boxes)), order_(boxes_.size()) {
-    std::iota(order_.begin(), order_.end(), 0u);
+    std::vector<Place> places(boxes_.size());
+    for (std::uint32_t i = 0; i < boxes_.size(); ++i) places[i] = {centerOf(boxes_[i]), i};
     nodes_.reserve(boxes_.size());
-    if (!boxes_.empty()) build(0, static_cast<std::uint32_t>(boxes_.size()), halving);
+    if (!boxes_.empty()) build(0, places, halving);
 }
 
-std::uint32_t BoxTree::build(std::uint32_t begin, std::uint32_t end, Halving halving) {
+std::uint32_t BoxTree::build(std::uint32_t begin, std::span<Place> places, Halving halving) {
     const auto index = static_cast<std::uint32_t>(nodes_.size());
+    const auto end = static_cast<std::uint32_t>(begin + places.size());
     nodes_.emplace_back();
     Box3d box, centers;
-    for (std::uint32_t i = begin; i < end; ++i) {
-        box.add(boxes_[order_[i]]);
-        centers.add(centerOf(boxes_[order_[i]]));
+    for (const Place& place : places) {
+        box.add(boxes_[place.box]);
+        centers.add(place.center);
     }
     nodes_[index].box = box;
     nodes_[index].begin = begin;
     nodes_[index].end = end;
-    if (end - begin <= halving.leafSize) {
+    if (places.size() <= halving.leafSize) {
+        for (std::size_t i = 0; i < places.size(); ++i) order_[begin + i] = places[i].box;
         // nth_element() leaves them in an order that depends on the standard library.
         std::sort(order_.begin() + begin, order_.begin() + end);
         return index;
     }
     const Vec3d size = (halving.usesCenters ? centers : box).size();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                     [&](std::uint32_t p, std::uint32_t q) {
-                         const double a = centerOf(boxes_[p])[axis], b = centerOf(boxes_[q])[axis];
-                         return a != b ? a < b : p < q;
+    const std::size_t middle = places.size() / 2;
+    std::nth_element(places.begin(), places.begin() + std::ptrdiff_t(middle), places.end(),
+                     [axis](const Place& p, const Place& q) {
+                         const double a = p.center[axis], b = q.center[axis];
+                         return a != b ? a < b : p.box < q.box;
                      });
-    build(begin, middle, halving);
-    const std::uint32_t right = build(middle, end, halving);
+    build(begin, places.first(middle), halving);
+    const std::uint32_t right = build(static_cast<std::uint32_t>(begin + middle), places.subspan(middle), halving);
     nodes_[index].right = right;
     return index;
 }

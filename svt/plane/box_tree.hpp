@@ -4,6 +4,7 @@
 
 #include <svt/plane/point.hpp>
 
+#include <span>
 #include <vector>
 
 namespace svt::plane {
@@ -45,6 +46,18 @@ public:
         return walk([&](const Box3d& box, std::uint32_t) { return isNear(box); }, isNear, take);
     }
 
+    /// As visit(), but the child of a node that lies first along `direction` comes first. So a ray that ends at its
+    /// first hit tests fewer boxes. Calls `body(i)` for each box i with isNear(box).
+    template <class IsNear, class Body>
+    void forEachAlong(Vec3d direction, const IsNear& isNear, const Body& body) const {
+        const auto isRightFirst = [&](const Node& node) {
+            const Box3d &left = nodes_[&node - nodes_.data() + 1].box, &right = nodes_[node.right].box;
+            return dot(right.center() - left.center(), direction) < 0;
+        };
+        static_cast<void>(
+            walk([&](const Box3d& box, std::uint32_t) { return isNear(box); }, isNear, untilEnd(body), isRightFirst));
+    }
+
     /// Calls `body(i)` for each box i with isNear(box).
     template <class IsNear, class Body>
     void forEach(const IsNear& isNear, const Body& body) const {
@@ -80,7 +93,12 @@ private:
         Vec3d normal{};
         double low = 0, high = 0;
     };
-    std::uint32_t build(std::uint32_t begin, std::uint32_t end, Halving halving);
+    struct Place {
+        Vec3d center;
+        std::uint32_t box;
+    };
+    // The node of order_[begin] and the following, which `places` names.
+    std::uint32_t build(std::uint32_t begin, std::span<Place> places, Halving halving);
     [[nodiscard]] Slab slabOf(const Node& node, Vec3d normal, const std::vector<SpaceTriangle>& triangles) const;
     [[nodiscard]] static bool isReached(const Slab& slab, const SpaceTriangle& triangle) noexcept;
 
@@ -92,8 +110,13 @@ private:
         };
     }
 
-    template <class IsNodeNear, class IsNear, class Take>
-    [[nodiscard]] bool walk(const IsNodeNear& isNodeNear, const IsNear& isNear, const Take& take) const {
+    struct LeftFirst {
+        bool operator()(const Node&) const noexcept { return false; }
+    };
+
+    template <class IsNodeNear, class IsNear, class Take, class IsRightFirst = LeftFirst>
+    [[nodiscard]] bool walk(const IsNodeNear& isNodeNear, const IsNear& isNear, const Take& take,
+                            const IsRightFirst& isRightFirst = {}) const {
         std::uint32_t stack[64];  // the tree is at most 32 nodes deep
         std::uint32_t depth = 0;
         if (!nodes_.empty()) stack[depth++] = 0;
@@ -102,8 +125,9 @@ private:
             const Node& node = nodes_[index];
             if (!isNodeNear(node.box, index)) continue;
             if (node.right != 0) {
-                stack[depth++] = node.right;
-                stack[depth++] = index + 1;
+                const bool isSwapped = isRightFirst(node);
+                stack[depth++] = isSwapped ? index + 1 : node.right;
+                stack[depth++] = isSwapped ? node.right : index + 1;
                 continue;
             }
             for (std::uint32_t i = node.begin; i < node.end; ++i)

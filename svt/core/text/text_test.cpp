@@ -27,6 +27,14 @@ TEST(Utf8, WrongBytesAreFound) {
     }
 }
 
+TEST(PlainLength, EndsAtQuotesBackslashesAndOtherThanPrintableAscii) {
+    EXPECT_EQ(plainLength("", '"'), 0u);
+    EXPECT_EQ(plainLength("a 'b' ~", '"'), 7u);
+    EXPECT_EQ(plainLength("a 'b'", '\''), 2u);
+    for (const char* end : {"\"", "\\", "\n", "\x1F", "\x7F", "\xC3\xA4"})
+        EXPECT_EQ(plainLength(std::string("ab") + end, '"'), 2u);
+}
+
 TEST(Ascii, DigitsAndBlanksAreThoseOfAsciiAlone) {
     for (int code = 0; code < 256; ++code) {
         const auto c = static_cast<char>(code);

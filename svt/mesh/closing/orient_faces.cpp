@@ -1,5 +1,6 @@
 #include <svt/mesh/closing/orient_faces.hpp>
 
+#include <svt/mesh/polygons/edge_uses.hpp>
 #include <svt/mesh/polygons/face_tree.hpp>
 
 #include <algorithm>
@@ -41,33 +42,18 @@ struct Patches {
 };
 
 Patches findPatches(const std::vector<Triangle>& triangles) {
-    struct Use {
-        std::uint32_t low, high, triangle;
-        bool isForward;
-    };
-    std::vector<Use> uses;
-    uses.reserve(triangles.size() * 3);
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        for (std::size_t c = 0; c < 3; ++c) {
-            const std::uint32_t a = triangles[t].corners[c], b = triangles[t].corners[(c + 1) % 3];
-            uses.push_back({std::min(a, b), std::max(a, b), t, a < b});
-        }
-    std::sort(uses.begin(), uses.end(), [](const Use& p, const Use& q) {
-        return std::tie(p.low, p.high, p.triangle) < std::tie(q.low, q.high, q.triangle);
-    });
     std::vector<std::uint32_t> parent(triangles.size());
     std::iota(parent.begin(), parent.end(), 0u);
     const auto find = [&](std::uint32_t t) {
         while (parent[t] != t) t = parent[t] = parent[parent[t]];
         return t;
     };
-    for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
-        for (end = begin; end < uses.size() && uses[end].low == uses[begin].low && uses[end].high == uses[begin].high;)
-            ++end;
-        if (end - begin != 2 || uses[begin].isForward == uses[begin + 1].isForward) continue;
+    const std::vector<EdgeUse> uses = collectEdgeUses(triangles);
+    forEachEdge(uses, [&](std::size_t begin, std::size_t end) {
+        if (end - begin != 2 || uses[begin].isForward == uses[begin + 1].isForward) return;
         const std::uint32_t a = find(uses[begin].triangle), b = find(uses[begin + 1].triangle);
         parent[std::max(a, b)] = std::min(a, b);
-    }
+    });
     Patches patches;
     patches.of.resize(triangles.size());
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {

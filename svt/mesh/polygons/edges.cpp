@@ -1,5 +1,6 @@
 #include <svt/mesh/polygons/edges.hpp>
 
+#include <svt/mesh/polygons/edge_uses.hpp>
 #include <svt/plane/box_tree.hpp>
 
 #include <algorithm>
@@ -13,43 +14,6 @@ namespace svt::mesh {
 namespace {
 
 constexpr std::size_t kMaxDoubledVisits = std::size_t{1} << 28;  // of removeDoubledFaces()
-
-// A use of an edge by a triangle: the undirected edge, the triangle, and whether it runs from `low` to `high`.
-struct EdgeUse {
-    std::uint32_t low, high;
-    std::uint32_t triangle;
-    bool isForward;
-    friend bool operator<(const EdgeUse& a, const EdgeUse& b) {
-        if (a.low != b.low) return a.low < b.low;
-        if (a.high != b.high) return a.high < b.high;
-        return a.triangle < b.triangle;
-    }
-    [[nodiscard]] bool isSameEdge(const EdgeUse& other) const { return low == other.low && high == other.high; }
-};
-
-std::vector<EdgeUse> collectEdgeUses(const std::vector<Triangle>& triangles) {
-    std::vector<EdgeUse> uses;
-    uses.reserve(triangles.size() * 3);
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        for (int c = 0; c < 3; ++c) {
-            const std::uint32_t a = triangles[t].corners[std::size_t(c)];
-            const std::uint32_t b = triangles[t].corners[std::size_t((c + 1) % 3)];
-            uses.push_back({std::min(a, b), std::max(a, b), t, a < b});
-        }
-    }
-    std::sort(uses.begin(), uses.end());
-    return uses;
-}
-
-template <class F>
-void forEachEdge(const std::vector<EdgeUse>& uses, F&& body) {
-    for (std::size_t begin = 0; begin < uses.size();) {
-        std::size_t end = begin + 1;
-        while (end < uses.size() && uses[end].isSameEdge(uses[begin])) ++end;
-        body(begin, end);
-        begin = end;
-    }
-}
 
 // Disjoint sets with path halving.
 struct UnionFind {

@@ -1,4 +1,5 @@
 #include <svt/mesh/models_test.hpp>
+#include <svt/mesh/polygons/edge_uses.hpp>
 #include <svt/mesh/polygons/edges.hpp>
 #include <svt/mesh/processor_time_test.hpp>
 
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <numbers>
 #include <random>
+#include <tuple>
 
 namespace svt::mesh {
 namespace {
@@ -25,6 +27,29 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> pairsOf(const std::vector<O
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 const Vec3d kNear{0, 0, 0}, kFar{4, 3, 2};
+
+TEST(CollectEdgeUses, AreSortedWhetherVerticesAreDenseOrSparse) {
+    std::mt19937 random(5);
+    for (const std::uint32_t vertexCount : {5u, 400u, 5'000'000u}) {
+        std::vector<Triangle> triangles(600);
+        for (Triangle& triangle : triangles)
+            for (std::uint32_t& corner : triangle.corners) corner = random() % vertexCount;
+        const std::vector<EdgeUse> uses = collectEdgeUses(triangles);
+        ASSERT_EQ(uses.size(), 1800u);
+        const auto placeOf = [](const EdgeUse& use) { return std::tuple(use.low, use.high, use.triangle); };
+        for (std::size_t i = 1; i < uses.size(); ++i) EXPECT_LE(placeOf(uses[i - 1]), placeOf(uses[i]));
+        std::vector<int> usesOf(triangles.size(), 0);
+        for (const EdgeUse& use : uses) {
+            ++usesOf[use.triangle];
+            const auto& corners = triangles[use.triangle].corners;
+            const std::uint32_t from = use.isForward ? use.low : use.high, to = use.isForward ? use.high : use.low;
+            EXPECT_TRUE((corners[0] == from && corners[1] == to) || (corners[1] == from && corners[2] == to) ||
+                        (corners[2] == from && corners[0] == to));
+        }
+        EXPECT_EQ(std::count(usesOf.begin(), usesOf.end(), 3), 600);
+    }
+    EXPECT_TRUE(collectEdgeUses({}).empty());
+}
 
 TEST(FindOpenEdges, ClosedBoxHasNone) {
     EXPECT_TRUE(findOpenEdges(boxMesh(kNear, kFar).triangles).empty());

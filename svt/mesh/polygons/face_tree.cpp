@@ -42,18 +42,6 @@ double hitFace(const RayFace& face, Vec3d origin, Vec3d direction) noexcept {
     return dot(face.ac, q) / determinant;
 }
 
-bool hitsBox(const Box3d& box, Vec3d origin, Vec3d inverse, double nearest) noexcept {
-    double low = 0, high = nearest;
-    for (int axis = 0; axis < 3; ++axis) {
-        const bool isBackward = inverse[axis] < 0;
-        // NaN (0 * inf, for a ray in a face of the slab) leaves the bounds unchanged: std::max and std::min then return
-        // their first argument.
-        low = std::max(low, ((isBackward ? box.max : box.min)[axis] - origin[axis]) * inverse[axis]);
-        high = std::min(high, ((isBackward ? box.min : box.max)[axis] - origin[axis]) * inverse[axis]);
-    }
-    return low <= high * (1 + 1e-12) + 1e-12;
-}
-
 FaceTree::FaceTree(const std::vector<Vec3d>& vertices, const std::vector<Triangle>& triangles)
     : faces_(makeRayFaces(vertices, triangles)),
       tree_(boxesOf(faces_)),

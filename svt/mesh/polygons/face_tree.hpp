@@ -5,6 +5,7 @@
 #include <svt/mesh/mesh_set.hpp>
 #include <svt/plane/box_tree.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -21,7 +22,17 @@ struct RayFace {
 [[nodiscard]] double hitFace(const RayFace& face, Vec3d origin, Vec3d direction) noexcept;
 
 /// Whether a ray meets a box before `nearest` (slab test, Kay & Kajiya 1986). `inverse`: 1 / direction.
-[[nodiscard]] bool hitsBox(const Box3d& box, Vec3d origin, Vec3d inverse, double nearest) noexcept;
+[[nodiscard]] inline bool hitsBox(const Box3d& box, Vec3d origin, Vec3d inverse, double nearest) noexcept {
+    double low = 0, high = nearest;
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool isBackward = inverse[axis] < 0;
+        // NaN (0 * inf, for a ray in a face of the slab) leaves the bounds unchanged: std::max and std::min then return
+        // their first argument.
+        low = std::max(low, ((isBackward ? box.max : box.min)[axis] - origin[axis]) * inverse[axis]);
+        high = std::min(high, ((isBackward ? box.min : box.max)[axis] - origin[axis]) * inverse[axis]);
+    }
+    return low <= high * (1 + 1e-12) + 1e-12;
+}
 
 /// The faces of a mesh that have an area, in a tree of their boxes.
 ///
@@ -50,7 +61,7 @@ public:
             --testsLeft_;
             return hitsBox(box, origin, inverse, nearest);
         };
-        tree_.forEach(isNear, [&](std::uint32_t f) { body(faces_[f]); });
+        tree_.forEachAlong(direction, isNear, [&](std::uint32_t f) { body(faces_[f]); });
     }
 
 private:

@@ -143,6 +143,15 @@ Mask rowsWhere(Rows rows, const Condition& condition) {
     return mask;
 }
 
+/// The same for rows in `among`; the others do not match.
+template <class Condition>
+Mask rowsWhere(Rows rows, const Mask& among, const Condition& condition) {
+    Mask mask = among;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (among[i]) mask[i] = condition(rows[i]) ? 1 : 0;
+    return mask;
+}
+
 /// Values of several terms of one kind, so that a row is compared with all of them at once.
 class Values {
 public:
@@ -193,27 +202,31 @@ Mask selectStorey(const Node& node, Rows rows) {
     return Descendants(rows).reachedFrom(starts);
 }
 
-Mask selectCompare(const Node& node, Rows rows) {
+Mask selectCompare(const Node& node, Rows rows, const Mask& among) {
     switch (node.key) {
-        case Key::Class: return rowsWhere(rows, [&](const QueryRow& row) { return classHolds(node, row); });
-        case Key::Id: return rowsWhere(rows, [&](const QueryRow& row) { return textHolds(node, row.id); });
+        case Key::Class: return rowsWhere(rows, among, [&](const QueryRow& row) { return classHolds(node, row); });
+        case Key::Id: return rowsWhere(rows, among, [&](const QueryRow& row) { return textHolds(node, row.id); });
         case Key::Name:
-            return rowsWhere(rows, [&](const QueryRow& row) { return !row.name.empty() && textHolds(node, row.name); });
+            return rowsWhere(rows, among,
+                             [&](const QueryRow& row) { return !row.name.empty() && textHolds(node, row.name); });
         case Key::Storey: return selectStorey(node, rows);
         case Key::Volume:
-            return rowsWhere(rows, [&](const QueryRow& row) { return row.volume && numberHolds(node, *row.volume); });
+            return rowsWhere(rows, among,
+                             [&](const QueryRow& row) { return row.volume && numberHolds(node, *row.volume); });
         case Key::Voxels:
-            return rowsWhere(rows,
+            return rowsWhere(rows, among,
                              [&](const QueryRow& row) { return numberHolds(node, static_cast<double>(row.voxels)); });
-        case Key::Attribute: return rowsWhere(rows, [&](const QueryRow& row) { return anyAttributeHolds(node, row); });
+        case Key::Attribute:
+            return rowsWhere(rows, among, [&](const QueryRow& row) { return anyAttributeHolds(node, row); });
     }
     return Mask(rows.size(), 0);
 }
 
-Mask evaluate(const Node& node, Rows rows);
+/// The rows that match, of those in `among`; others may match or not.
+Mask evaluate(const Node& node, Rows rows, const Mask& among);
 
 /// Thousands of ids take one search per row, instead of one pass over the rows per id.
-Mask selectAny(const std::vector<Node>& terms, Rows rows) {
+Mask selectAny(const std::vector<Node>& terms, Rows rows, const Mask& among) {
     const Values ids(terms, isOfId), above(terms, isUnder);
     Mask mask(rows.size(), 0);
     const auto add = [&](const Mask& other) {
@@ -222,27 +235,27 @@ Mask selectAny(const std::vector<Node>& terms, Rows rows) {
     if (!ids.isEmpty()) add(rowsWhere(rows, [&](const QueryRow& row) { return ids.contain(row.id); }));
     if (!above.isEmpty()) add(selectBelow(rows, [&](std::string_view name) { return above.contain(name); }));
     for (const Node& term : terms)
-        if (!isOfId(term) && !isUnder(term)) add(evaluate(term, rows));
+        if (!isOfId(term) && !isUnder(term)) add(evaluate(term, rows, among));
     return mask;
 }
 
 /// The parser limits the depth of nodes.
-Mask evaluate(const Node& node, Rows rows) {
+Mask evaluate(const Node& node, Rows rows, const Mask& among) {
     switch (node.kind) {
         case Kind::All: return Mask(rows.size(), 1);
         case Kind::None: return Mask(rows.size(), 0);
         case Kind::Under: return selectUnder(node, rows);
-        case Kind::Compare: return selectCompare(node, rows);
+        case Kind::Compare: return selectCompare(node, rows, among);
         case Kind::Not: {
-            Mask mask = evaluate(node.children.front(), rows);
+            Mask mask = evaluate(node.children.front(), rows, among);
             for (char& matches : mask) matches ^= 1;
             return mask;
         }
-        case Kind::Or: return selectAny(node.children, rows);
+        case Kind::Or: return selectAny(node.children, rows, among);
         case Kind::And: {
-            Mask mask = evaluate(node.children.front(), rows);
-            for (std::size_t k = 1; k < node.children.size(); ++k) {
-                const Mask other = evaluate(node.children[k], rows);
+            Mask mask = among;
+            for (const Node& child : node.children) {
+                const Mask other = evaluate(child, rows, mask);
                 for (std::size_t i = 0; i < mask.size(); ++i) mask[i] &= other[i];
             }
             return mask;
@@ -289,7 +302,7 @@ Result<Query> Query::parse(std::string_view text) {
 }
 
 std::vector<std::uint32_t> Query::select(std::span<const QueryRow> rows) const {
-    const Mask mask = evaluate(*root_, rows);
+    const Mask mask = evaluate(*root_, rows, Mask(rows.size(), 1));
     std::vector<std::uint32_t> selected;
     for (std::size_t i = 0; i < mask.size(); ++i)
         if (mask[i]) selected.push_back(static_cast<std::uint32_t>(i));

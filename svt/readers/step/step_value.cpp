@@ -204,6 +204,10 @@ std::string decodeString(string_view quoted) {
     std::string text;
     text.reserve(quoted.size());
     for (std::size_t at = 0; at < quoted.size();) {
+        const std::size_t plain = plainLength(quoted.substr(at), '\'');
+        text += quoted.substr(at, plain);
+        at += plain;
+        if (at == quoted.size()) break;
         const char c = quoted[at];
         if (c == '\'') {
             text += c;

@@ -312,6 +312,10 @@ Result<void> checkVersion(Members& members) {
 void appendJsonString(std::string& out, std::string_view text, JsonCharacters characters) {
     out += '"';
     while (!text.empty()) {
+        const std::size_t plain = plainLength(text, '"');
+        out += text.substr(0, plain);
+        text.remove_prefix(plain);
+        if (text.empty()) break;
         const auto [code, size] = firstCharacter(text);
         const char32_t point = size == 0 ? 0xFFFD : code;
         if (point == '"' || point == '\\') {
