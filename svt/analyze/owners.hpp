@@ -19,6 +19,7 @@
 
 #include <svt/analyze/contacts.hpp>
 #include <svt/analyze/right_types.hpp>
+#include <svt/core/diagnostics.hpp>
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
@@ -76,6 +77,8 @@ struct OwnerTable {
 /// rightTypes(), ownership by default. Several owners of a feature have a row each, with their shares, which add up to 1
 /// at most. Other rights do not restrict each other. The same owner may have any number of features.
 /// \param file  name for messages
+/// \param unknown  receives a warning for each row that names no feature, which has no effect then; null, or if there is
+///                 no other row: an error
 /// \return the table, or an error with its line:
 ///         - BadValue         unknown or missing columns, an empty field, an open quote, a bad share, an unknown right,
 ///                            or no rows. Several owners of a feature without shares, or with more than 1 in all.
@@ -83,7 +86,7 @@ struct OwnerTable {
 ///         - InputTooBig      over 64 MiB, rows that look at more than 2^30 features in all, or more than 2^24 rights.
 /// Cost: O(bytes + labels of all extents) for ids; a query O(labels).
 [[nodiscard]] Result<OwnerTable> parseOwners(std::string_view text, std::string_view file,
-                                             const volume::LabelTable& labels);
+                                             const volume::LabelTable& labels, Diagnostics* unknown = nullptr);
 
 /// An owner's share of one component.
 struct OwnerShare {

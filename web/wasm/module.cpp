@@ -57,12 +57,15 @@ Result<Reply> open(const Arguments& arguments) {
     return Reply(infoOf(*session));
 }
 
-// (file name) and a table's bytes -> nothing; features get owners
+// (file name) and a table's bytes -> messages on rows that name no feature; features get owners
 Result<Reply> owners(const Arguments& arguments) {
     const auto bytes = arguments.bytes();
     const std::string_view table(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    SVT_DO(session->setOwners(table, arguments.text(0)));
-    return Reply(std::string("null"));
+    SVT_TRY(unknown, session->setOwners(table, arguments.text(0)));
+    Json messages = Json::array();
+    for (const Diagnostic& row : unknown->items())
+        messages.push_back(fmt::format("{}: {}", row.where.line, row.message));
+    return Reply(messages.dump());
 }
 
 Result<Vec3d> pointAt(const Arguments& arguments, std::size_t n) {

@@ -130,14 +130,15 @@ Result<std::unique_ptr<Session>> Session::open(std::span<const NamedBytes> files
     return session;
 }
 
-Result<void> Session::setOwners(std::string_view table, std::string_view file) {
+Result<Diagnostics> Session::setOwners(std::string_view table, std::string_view file) {
     if (hasOwners_)
         for (volume::Label& label : volume_.labels.labels)
             if (!label.attributes.empty() && label.attributes.back().name == "owner") label.attributes.pop_back();
     hasOwners_ = false;
-    SVT_DO(illustrate::addOwnerAttributes(volume_, table, file));
+    Diagnostics unknown;
+    SVT_DO(illustrate::addOwnerAttributes(volume_, table, file, unknown));
     hasOwners_ = true;
-    return {};
+    return unknown;
 }
 
 volume::Scalar Session::scalarAt(Vec3d point) const {

@@ -68,8 +68,8 @@ public:
 
     /// Sets the owners of features, as attributes `owner`, and removes those of an earlier table.
     /// \param table  CSV, see analyze::parseOwners()
-    /// \return an error of parseOwners(); the features then have no owners
-    [[nodiscard]] Result<void> setOwners(std::string_view table, std::string_view file);
+    /// \return a warning for each row that names no feature, or an error of parseOwners(); the features then have no owners
+    [[nodiscard]] Result<Diagnostics> setOwners(std::string_view table, std::string_view file);
 
     /// Whether a person can be at a point: in the air of a room, outside, in a door, or in features that the last
     /// picture does not draw at all. Cost: O(log runs of a column).

@@ -189,9 +189,8 @@ Result<std::vector<volume::SemanticVolume>> addInputs(const RenderArguments& arg
     SVT_DO(illustrate::joinLabels(volume, details));
     if (arguments.owners.empty()) return details;
     SVT_TRY(table, readers::readOwnerTable(arguments.owners));
-    if (auto added = illustrate::addOwnerAttributes(volume, *table, arguments.owners.string(), arguments.build.threads);
-        !added)
-        return added.error();
+    SVT_DO(illustrate::addOwnerAttributes(volume, *table, arguments.owners.string(), diagnostics,
+                                          arguments.build.threads));
     return details;
 }
 

@@ -211,7 +211,8 @@ struct Owners {
 
 class TableMaker {
 public:
-    TableMaker(std::string_view file, const volume::LabelTable& labels) : file_(file), labels_(labels), find_(labels) {
+    TableMaker(std::string_view file, const volume::LabelTable& labels, Diagnostics* unknown)
+        : file_(file), labels_(labels), find_(labels), unknown_(unknown) {
         table_.ofLabel.resize(labels.labels.size());
         table_.sources.emplace_back();
     }
@@ -240,7 +241,7 @@ public:
             type = *known;
         }
         const auto selected = find_.find(std::string(columns_.field(row, TableColumns::Feature)), visits_);
-        if (!selected) return Error(selected.error().code(), selected.error().message(), place);
+        if (!selected) return reportUnknown(Error(selected.error().code(), selected.error().message(), place));
         visits_ += selected->size();
         SVT_DO(checkVisits(place));
         const std::string party(columns_.field(row, TableColumns::Owner));
@@ -257,6 +258,7 @@ public:
     }
 
     Result<OwnerTable> finish() {
+        if (table_.parties.empty() && firstUnknown_) return *firstUnknown_;
         if (table_.parties.empty())
             return Error(Code::BadValue, "owners table: no rows; expected lines such as flat-1,Smith",
                          {std::string(file_), 0, 0, {}});
@@ -275,6 +277,13 @@ public:
     void setColumns(const TableColumns& columns) noexcept { columns_ = columns; }
 
 private:
+    [[nodiscard]] Result<void> reportUnknown(const Error& error) {
+        if (unknown_ == nullptr || error.code() != Code::NothingSelected) return error;
+        unknown_->add(Severity::Warning, error.code(), error.message(), error.where());
+        if (!firstUnknown_) firstUnknown_ = error;
+        return {};
+    }
+
     [[nodiscard]] Result<void> checkFields(const TableRow& row, const Place& place) const {
         const auto isEmpty = [](const std::string& field) { return field.empty(); };
         if (columns_.areNamed) {
@@ -427,6 +436,8 @@ private:
     std::string_view file_;
     const volume::LabelTable& labels_;
     Features find_;
+    Diagnostics* unknown_;
+    std::optional<Error> firstUnknown_;
     TableColumns columns_;
     OwnerTable table_;
     std::map<std::string, std::uint32_t> numberOf_, parties_, sources_{{std::string(), 0}};
@@ -438,7 +449,8 @@ private:
 
 }  // namespace
 
-Result<OwnerTable> parseOwners(std::string_view text, std::string_view file, const volume::LabelTable& labels) {
+Result<OwnerTable> parseOwners(std::string_view text, std::string_view file, const volume::LabelTable& labels,
+                               Diagnostics* unknown) {
     if (const std::size_t at = findInvalidUtf8(text); at != std::string_view::npos) {
         const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
         return Error(Code::BadValue, "owners table: the table is not in UTF-8; save it as CSV UTF-8",
@@ -448,7 +460,7 @@ Result<OwnerTable> parseOwners(std::string_view text, std::string_view file, con
         return Error(Code::InputTooBig,
                      fmt::format("an owners table of {} bytes; at most {} are read", text.size(), kMaxBytes),
                      {std::string(file), 0, 0, {}});
-    TableMaker maker(file, labels);
+    TableMaker maker(file, labels, unknown);
     TableReader reader(text, file);
     while (!reader.isAtEnd()) {
         SVT_TRY(row, reader.next());

@@ -131,25 +131,36 @@ void colorByRamp(const std::vector<std::optional<Value>>& values, Coloring& colo
         if (values[row]) coloring.colors[row] = rampColor(scale, *numberOf(values[row]->text));
 }
 
-void colorByPalette(const std::vector<std::optional<Value>>& values, const std::map<std::string, std::size_t>& counts,
+// Rows with a value of a palette, hidden or not, and those of them that are shown.
+struct Count {
+    std::size_t all = 0, shown = 0;
+};
+
+void colorByPalette(const std::vector<std::optional<Value>>& values, const std::map<std::string, Count>& counts,
                     Coloring& coloring) {
-    std::vector<ColorScale::Entry>& entries = coloring.scale.entries;
-    for (const auto& [text, count] : counts) entries.push_back({text, kGray, count});
-    if (entries.size() > kMostEntries)
-        std::stable_sort(entries.begin(), entries.end(),
-                         [](const auto& a, const auto& b) { return a.count > b.count; });
+    std::vector<std::pair<std::string_view, Count>> known(counts.begin(), counts.end());
+    if (known.size() > kMostEntries)
+        std::stable_sort(known.begin(), known.end(),
+                         [](const auto& a, const auto& b) { return a.second.all > b.second.all; });
     std::map<std::string_view, Vec3f> colors;
-    for (std::size_t n = 0; n < entries.size(); ++n) {
-        if (n < kMostEntries) entries[n].color = paletteColor(n);
-        colors[entries[n].text] = entries[n].color;
+    std::size_t otherCount = 0;
+    ColorScale::Entry others{"", kGray, 0};
+    for (std::size_t n = 0; n < known.size(); ++n) {
+        const auto& [text, count] = known[n];
+        colors[text] = n < kMostEntries ? paletteColor(n) : kGray;
+        if (count.shown == 0) continue;
+        if (n < kMostEntries) {
+            coloring.scale.entries.push_back({std::string(text), colors[text], count.shown});
+        } else {
+            ++otherCount;
+            others.count += count.shown;
+        }
     }
     for (std::size_t row = 0; row < values.size(); ++row)
         if (values[row]) coloring.colors[row] = colors[values[row]->text];
-    if (entries.size() <= kMostEntries) return;
-    ColorScale::Entry others{fmt::format("{} others", entries.size() - kMostEntries), kGray, 0};
-    for (std::size_t n = kMostEntries; n < entries.size(); ++n) others.count += entries[n].count;
-    entries.resize(kMostEntries);
-    entries.push_back(std::move(others));
+    if (otherCount == 0) return;
+    others.text = fmt::format("{} others", otherCount);
+    coloring.scale.entries.push_back(std::move(others));
 }
 
 }  // namespace
@@ -169,33 +180,41 @@ Vec3f rampColor(const ColorScale& scale, double value) {
 }
 
 Result<Coloring> colorBy(std::string_view key, std::span<const model::QueryRow> rows,
-                         std::span<const std::uint8_t> isShown, std::span<const double> areas) {
+                         std::span<const std::uint8_t> isShown, std::span<const double> areas,
+                         std::span<const std::uint8_t> isHidden) {
     const ValueFinder finder(key, rows, areas);
     std::vector<std::optional<Value>> values(rows.size());
     Coloring coloring;
     coloring.colors.assign(rows.size(), kGray);
     bool isNumeric = true, isWord = false;
     std::string unit;
-    std::map<std::string, std::size_t> counts;
+    std::map<std::string, Count> counts;
+    std::size_t shownCount = 0;
     for (std::uint32_t row = 0; row < rows.size(); ++row) {
-        if (isShown[row] == 0) continue;
+        const bool isCounted = isShown[row] != 0;
+        if (!isCounted && (row >= isHidden.size() || isHidden[row] == 0)) continue;
         values[row] = finder.of(row);
         if (!values[row]) {
-            ++coloring.scale.missing;
+            coloring.scale.missing += isCounted ? 1 : 0;
             continue;
         }
-        ++counts[values[row]->text];
+        Count& count = counts[values[row]->text];
+        ++count.all;
+        count.shown += isCounted ? 1 : 0;
+        shownCount += isCounted ? 1 : 0;
         isNumeric = isNumeric && numberOf(values[row]->text).has_value();
         isWord = isWord || values[row]->isWord;
         if (unit.empty()) unit = values[row]->unit;
     }
-    if (counts.empty()) return nothingToColor(key, rows, isShown);
+    if (shownCount == 0) return nothingToColor(key, rows, isShown);
     coloring.scale.title = unit.empty() ? std::string(key) : fmt::format("{} ({})", key, unit);
     // Text that reads like numbers is codes where it is a few, and measures where it is many.
     if (isNumeric && (!isWord || counts.size() > kMostEntries))
         colorByRamp(values, coloring);
     else
         colorByPalette(values, counts, coloring);
+    for (std::size_t row = 0; row < rows.size(); ++row)
+        if (isShown[row] == 0) coloring.colors[row] = kGray;
     return coloring;
 }
 

@@ -80,6 +80,29 @@ TEST_F(ColorByTest, WordsGetAPalette) {
     EXPECT_FALSE(by("function").scale.isRamp) << "a code is no measure";
 }
 
+TEST_F(ColorByTest, HidingComponentsKeepsTheColoursOfOthers) {
+    const std::vector<std::uint8_t> isHidden{0, 0, 0, 1, 0, 0};
+    for (const char* key : {"volume", "storey", "name", "class"}) {
+        const Coloring before = by(key);
+        isShown_[3] = 0;
+        const auto after = colorBy(key, rows_, isShown_, {}, isHidden);
+        isShown_[3] = 1;
+        ASSERT_TRUE(after) << key;
+        EXPECT_EQ(after->colors[4], before.colors[4]) << key;
+        EXPECT_EQ(after->colors[5], before.colors[5]) << key;
+        EXPECT_EQ(after->colors[3], missingColor()) << key;
+        EXPECT_EQ(after->scale.low, before.scale.low) << key;
+    }
+    isShown_[3] = 0;
+    const auto storey = colorBy("storey", rows_, isShown_, {}, isHidden);
+    ASSERT_TRUE(storey);
+    ASSERT_EQ(storey->scale.entries.size(), 1u) << "the legend lists visible components";
+    EXPECT_EQ(storey->scale.entries[0].text, "og");
+    EXPECT_EQ(storey->scale.entries[0].count, 1u);
+    isShown_ = {0, 0, 0, 0, 0, 1};
+    EXPECT_FALSE(colorBy("storey", rows_, isShown_, {}, isHidden)) << "no visible component has a storey";
+}
+
 TEST_F(ColorByTest, ManyWordsLeaveSomeGray) {
     std::vector<std::string> names;
     for (int n = 0; n < 30; ++n) names.push_back("name " + std::to_string(n));
@@ -126,7 +149,11 @@ TEST(OwnerAttributes, FollowTheTableAndContacts) {
     for (const char* id : {"outer", "a", "between", "b", "far"})
         volume::test::addObject(volume, id, id[1] == '\0' ? "BuildingRoom" : "WallSurface");
     volume::test::paint(volume, [](int i, int, int) { return std::array{1, 2, 2, 3, 4, 4, 0, 0, 5}[std::size_t(i)]; });
-    ASSERT_TRUE(addOwnerAttributes(volume, "feature,owner\na,Anna\nb,Bert\n", "t.csv"));
+    Diagnostics unknown;
+    ASSERT_TRUE(addOwnerAttributes(volume, "feature,owner\na,Anna\nnobody,Carl\nb,Bert\n", "t.csv", unknown));
+    ASSERT_EQ(unknown.items().size(), 1u);
+    EXPECT_EQ(unknown.items()[0].where.line, 3u);
+    EXPECT_NE(unknown.items()[0].message.find("'nobody'"), std::string::npos);
     const auto ownerOf = [&](std::size_t l) {
         const auto& attributes = volume.labels.labels[l].attributes;
         return attributes.empty() ? std::string("-") : toText(attributes.back().value);
@@ -136,8 +163,9 @@ TEST(OwnerAttributes, FollowTheTableAndContacts) {
     EXPECT_EQ(ownerOf(2), "shared");
     EXPECT_EQ(ownerOf(3), "Bert");
     EXPECT_EQ(ownerOf(4), "-");
-    EXPECT_EQ(addOwnerAttributes(volume, "feature,owner\nnobody,Anna\n", "t.csv").error().code(),
-              Code::NothingSelected);
+    EXPECT_EQ(addOwnerAttributes(volume, "feature,owner\nnobody,Anna\n", "t.csv", unknown).error().code(),
+              Code::NothingSelected)
+        << "no row has an effect";
 }
 
 TEST_F(ColorByTest, AreasAreGivenOrAttributes) {

@@ -18,8 +18,8 @@ Result<std::vector<double>> areasFor(std::string_view key, const volume::Semanti
 }
 
 Result<void> addOwnerAttributes(volume::SemanticVolume& volume, std::string_view table, std::string_view file,
-                                int threads) {
-    SVT_TRY(owners, analyze::parseOwners(table, file, volume.labels));
+                                Diagnostics& unknown, int threads) {
+    SVT_TRY(owners, analyze::parseOwners(table, file, volume.labels, &unknown));
     const auto contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, threads);
     std::vector<std::string> names(volume.labels.labels.size());
     for (std::size_t l = 0; l < names.size(); ++l)

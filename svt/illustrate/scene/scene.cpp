@@ -296,6 +296,19 @@ std::vector<render::Style> stylesOf(const LabelTable& table, const std::vector<L
 
 using PassLooks = std::vector<std::vector<LabelLook>>;  // by pass, by label
 
+// Labels that are not shown, although others of their kind are. The kinds are spaces and all other components.
+std::vector<std::uint8_t> hiddenOfKind(const std::vector<volume::Label>& labels,
+                                       const std::vector<std::uint8_t>& isShown) {
+    std::array<bool, 2> hasShown{};
+    const auto kindOf = [&](std::size_t l) { return std::size_t(isAir(labels[l])); };
+    for (std::size_t l = 0; l < labels.size(); ++l)
+        if (isShown[l] != 0) hasShown[kindOf(l)] = true;
+    std::vector<std::uint8_t> isHidden(labels.size(), 0);
+    for (std::size_t l = 0; l < labels.size(); ++l)
+        isHidden[l] = isShown[l] == 0 && labels[l].count > 0 && hasShown[kindOf(l)] ? 1 : 0;
+    return isHidden;
+}
+
 // The looks of all passes, with the colours of Scene::colorBy.
 Result<PassLooks> passLooks(const Scene& scene, const volume::SemanticVolume& volume, const analyze::LabelRows& rows,
                             ColorScale* scale) {
@@ -315,7 +328,7 @@ Result<PassLooks> passLooks(const Scene& scene, const volume::SemanticVolume& vo
         if (std::count(isShown.begin(), isShown.end(), 1) != 0) break;
     }
     SVT_TRY(areas, areasFor(scene.colorBy, volume));
-    SVT_TRY(coloring, colorBy(scene.colorBy, rows.withVolumes(), isShown, *areas));
+    SVT_TRY(coloring, colorBy(scene.colorBy, rows.withVolumes(), isShown, *areas, hiddenOfKind(labels, isShown)));
     for (auto& looks : all)
         for (std::size_t l = 0; l < labels.size(); ++l)
             if (!looks[l].isRecolored && !looks[l].isGhost) {

@@ -114,6 +114,12 @@ describe("flats and storeys act as their members", () => {
       ),
       `under "${kStorey}"`,
     );
+    // So does the editor of its row in the tree.
+    await visit.page.locator("svt-tree [role=tree]").focus();
+    await visit.page.keyboard.press("c");
+    const inTree = "document.querySelector('svt-app').shadowRoot.querySelector('svt-tree').shadowRoot.querySelector('svt-style-editor')";
+    await visit.until(`${inTree}?.query === 'under "${kStorey}"'`);
+    await visit.page.keyboard.press("c");
     await reset();
   });
 });

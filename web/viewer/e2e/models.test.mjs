@@ -130,6 +130,19 @@ describe("search and colours", () => {
       .getByRole("list", { name: /^Legend: volume/ })
       .getByText(/^from [\d.,]+ to [\d.,]+$/)
       .waitFor();
+    // Hidden components do not change the colours of others.
+    const keys = async () =>
+      legend
+        .locator("li")
+        .evaluateAll((all) =>
+          all.map((e) => [e.innerText.replace(/: \d+$/, ""), getComputedStyle(e.querySelector(".swatch")).backgroundColor]),
+        );
+    await inPage("s.view.set({ colorBy: 'class' })");
+    await visit.page.getByRole("list", { name: /^Legend: class/ }).waitFor();
+    const before = await keys();
+    const [first] = before[0];
+    await inPage("s.view.set({ hide: [...s.view.state.hide, `class=${v}`] })", first);
+    await visit.eventually(async () => assert.deepEqual(await keys(), before.slice(1)));
     await inPage("s.view.set({ colorBy: '' })");
     await legend.waitFor({ state: "detached" });
   });
@@ -159,6 +172,16 @@ describe("tables and several models", () => {
     await visit.choose({ name: "other.csv", bytes: Buffer.from(`feature,owner\n${rooms[0]},Cleo\n`) });
     await visit.message("The owners are from other.csv");
     assert.deepEqual(await inPage("s.volume.engine.select('owner=Ada').catch(() => [])"), []);
+    await visit.eventually(async () => {
+      const legend = (await visit.page.locator("#color-scale li").allInnerTexts()).join();
+      assert.ok(legend.includes("Cleo") && !/Ada|Bob/.test(legend), `the legend of the second table: ${legend}`);
+    });
+    // Rows of unknown features have no effect, and are named.
+    const some = `feature,owner\n${rooms[0]},Dora\nno such thing,Ada\n`;
+    await visit.choose({ name: "some.csv", bytes: Buffer.from(some) });
+    await visit.message("Line 3: 'no such thing'");
+    assert.equal(await visit.page.locator("#message.bad").count(), 0);
+    assert.deepEqual(await inPage("s.volume.engine.select('owner=Dora and class=BuildingRoom')"), [rooms[0]]);
     await visit.settled();
     await visit.choose({ name: "bad.csv", bytes: Buffer.from("feature,owner\nno such thing,Ada\n") });
     await visit.page

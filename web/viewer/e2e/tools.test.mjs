@@ -52,6 +52,13 @@ describe("tools", () => {
     for (let n = 0; n < 5; ++n) await visit.page.click("#add-plane");
     const free = (await state()).sections.filter((section) => section.axis === "free").map((section) => section.at);
     assert.equal(new Set(free).size, free.length, `planes lie on each other: ${free}`);
+    // A new plane goes through the middle of the selection.
+    await inPage("s.view.set({ sections: [], selection: [s.volume.info.features.find((f) => f.class === 'BuildingRoom').id] })");
+    await visit.until("s.selection.properties?.class === 'BuildingRoom'");
+    await visit.page.click("#add-plane");
+    const { low, high } = await inPage("s.selection.properties.box");
+    assert.ok(Math.abs((await state()).sections[0].at - (low[1] + high[1]) / 2) < 0.01);
+    await inPage("s.view.set({ selection: [] })");
     await inPage("s.view.set({ sections: [{ axis: 'z', at: 1, flip: false, turn: 0, tilt: 90 }] })");
     await visit.page.locator(".plane input.at").fill("2.5");
     await visit.page.locator(".plane input.at").press("Enter");

@@ -283,8 +283,11 @@ export const kCalls = {
   labels: call<(scene: Scene) => ArrayBuffer>(),
   /** The section through the volume as drawn by `svt section`. */
   drawing: call<(plane: string, format: DrawingFormat, parts?: DrawingParts) => ArrayBuffer>(),
-  /** Sets the owners of features, as attributes `owner`, from a table (CSV). Replaces an earlier table. */
-  owners: call<(table: ArrayBuffer, fileName: string) => null>(),
+  /**
+   * Sets the owners of features, as attributes `owner`, from a table (CSV). Replaces an earlier table. Resolves to messages on the
+   * rows that name no feature, with their lines.
+   */
+  owners: call<(table: ArrayBuffer, fileName: string) => string[]>(),
   /** The eye of a person standing near a point, inside if possible; null: there is no place to stand. */
   stand: call<(near: Point) => Point | null>(),
   /** The eye after a step, which glides along obstacles. */

@@ -214,14 +214,6 @@ const kTexts = {
   stage_voxelize: ["Voxels", "Voxel"],
   stage_patterns: ["Patterns", "Muster"],
   stage_pack: ["Packing", "Wird verpackt"],
-  ownersNeedModel: [
-    "{name} is a table of owners: open the model first, or drop both together.",
-    "{name} ist eine Tabelle von Eigentümern: erst das Modell öffnen, oder beide zusammen ablegen.",
-  ],
-  ownersGiven: [
-    "The owners are from {name}; colours show them. Queries: owner=NAME.",
-    "Eigentümer nach {name}; die Farben zeigen sie. Abfragen: owner=NAME.",
-  ],
   movedPlane: [
     "{plane} lies in faces of the model and is drawn {mm} mm beside them, on the kept side.",
     "{plane} liegt in Flächen des Modells und ist {mm} mm daneben gezeichnet, auf der Seite, die bleibt.",

@@ -5,6 +5,18 @@
 import { inLanguage } from "./texts";
 
 const kToolTexts = {
+  ownersNeedModel: [
+    "{name} is a table of owners: open the model first, or drop both together.",
+    "{name} ist eine Tabelle von Eigentümern: erst das Modell öffnen, oder beide zusammen ablegen.",
+  ],
+  ownersGiven: [
+    "The owners are from {name}; colours show them. Queries: owner=NAME.",
+    "Eigentümer nach {name}; die Farben zeigen sie. Abfragen: owner=NAME.",
+  ],
+  ownersUnknown: [
+    "Rows that name no feature have no effect: {n}. Line {first}",
+    "Zeilen ohne Wirkung, weil sie kein Objekt nennen: {n}. Zeile {first}",
+  ],
   cube: ["View cube", "Ansichtswürfel"],
   cubeHint: [
     "View cube. Arrow keys turn the view by 45 degrees, Enter shows all of it, Home shows it slanted.",

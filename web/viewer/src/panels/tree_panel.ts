@@ -8,7 +8,7 @@ import { repeat } from "lit/directives/repeat.js";
 import type { EngineError } from "../engine";
 import type { CitySearch } from "../city/city_search";
 import type { CityStream } from "../city/city_stream";
-import { ancestors, labelOf } from "../state/feature_index";
+import { ancestors, isGroupOfParts, labelOf } from "../state/feature_index";
 import { ofClass, ofId, ofSubtree } from "../state/queries";
 import { SeenCounts, subtree, type Seen } from "../state/visibility";
 import { t } from "../texts";
@@ -264,7 +264,7 @@ export class TreePanel extends Part {
     const seen = this.counts.ofSubtree(i);
     const isSelected = selected.has(feature.id);
     const color =
-      styles.find((s) => s.select === ofId(feature.id) && s.color)?.color ??
+      styles.find((s) => s.select === this.queryOf(i) && s.color)?.color ??
       styles.find((s) => s.select === ofClass(feature.class) && s.color)?.color ??
       feature.color;
     return html`<div id="row-${i}" role="treeitem" class="item ${isSelected ? "selected" : ""} ${this.active === i ? "active" : ""} ${seen === "none" ? "gone" : ""}"
@@ -282,7 +282,7 @@ export class TreePanel extends Part {
           : nothing
       }
       <span class="kind">${icon(kindOf(feature), 14)}</span>
-      <span class="name" title="${labelOf(feature)} · ${feature.class}">${labelOf(feature)} <span class="quiet">${feature.class}</span></span>
+      <span class="name" title="${labelOf(feature)} · ${feature.class}">${labelOf(feature)} <span class="quiet">${feature.type || feature.class}</span></span>
       ${isParent ? html`<span class="count">${this.counts.solidsOf(i)}</span>` : nothing}
       ${seen === "none" ? html`<span class="visually-hidden">${t("isHidden")}</span>` : nothing}
       <button class="bare eye ${seen}" tabindex="-1" aria-hidden="true" title=${seen === "none" ? t("show") : t("hide")} @click=${(e: Event) => this.see(i, seen, e)}>${eyeOf(seen)}</button>
@@ -398,7 +398,14 @@ export class TreePanel extends Part {
   private edit(i: number, event?: Event): void {
     event?.stopPropagation();
     const feature = this.session.volume.index.features[i]!;
-    this.editQuery(ofId(feature.id), labelOf(feature), i);
+    this.editQuery(this.queryOf(i), labelOf(feature), i);
+  }
+
+  /** The query of styles of a row: of a group, also its members. */
+  private queryOf(i: number): string {
+    const { index } = this.session.volume;
+    const { id } = index.features[i]!;
+    return isGroupOfParts(index, i) ? ofSubtree(id) : ofId(id);
   }
 
   private editQuery(query: string, label: string, like: number): void {

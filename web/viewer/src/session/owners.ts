@@ -1,6 +1,6 @@
 /** A table of owners or parcels (CSV) that was dropped on the page. It sets owners of features, for colours and queries. */
 
-import { t } from "../texts";
+import { toolText } from "../tool_texts";
 import { ViewPart } from "./view_part";
 
 export class Owners extends ViewPart {
@@ -11,20 +11,22 @@ export class Owners extends ViewPart {
   /** Applies a table, and colours features by it at once. Rejects with an error of the library that names the line. */
   async give(table: ArrayBuffer, file: string): Promise<void> {
     const { engine, info } = this.volume;
-    if (!engine || !info) return this.messages.tell(t("ownersNeedModel", { name: file }));
-    await engine.owners(table.slice(0), file);
+    if (!engine || !info) return this.messages.tell(toolText("ownersNeedModel", { name: file }));
+    const unknown = await engine.owners(table.slice(0), file);
     this.table = table;
     this.file = file;
-    if (this.view.state.colorBy === "owner") this.view.redraw();
+    if (this.view.state.colorBy === "owner") this.view.recolor();
     else this.view.set({ colorBy: "owner" });
-    this.messages.tell(t("ownersGiven", { name: file }));
+    const given = toolText("ownersGiven", { name: file });
+    const [first] = unknown;
+    this.messages.tell(first ? `${given} ${toolText("ownersUnknown", { n: unknown.length, first })}` : given);
   }
 
   /** Applies the table to a volume that replaced another one of the same model. */
   async giveAgain(): Promise<void> {
     if (!this.table) return;
     await this.volume.engine?.owners(this.table.slice(0), this.file).catch(() => this.forget());
-    this.view.redraw();
+    this.view.recolor();
   }
 
   forget(): void {

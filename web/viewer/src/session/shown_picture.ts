@@ -30,8 +30,9 @@ export class ShownPicture extends ViewPart {
   private drawable: ViewState | null = null;
   /** Number of views in succession that could not be drawn. */
   private refusals = 0;
-  /** The view whose colours have `scale`. */
+  /** The view whose colours have `scale`, and the state of their data. */
   private scaled: ViewState | null = null;
+  private scaledData = 0;
   /** The cut whose planes were compared with faces. */
   private seenCut: string | null = null;
 
@@ -137,8 +138,10 @@ export class ShownPicture extends ViewPart {
 
   /** The meaning of the colours, once per change. */
   private async findScale(state: ViewState): Promise<void> {
-    if (this.scaled && isSameChoice(state, this.scaled)) return;
+    const { dataRevision } = this.view;
+    if (this.scaled && isSameChoice(state, this.scaled) && this.scaledData === dataRevision) return;
     this.scaled = state;
+    this.scaledData = dataRevision;
     const { engine } = this.volume;
     const legend = async () => engine!.legend(await this.view.composed(this.view.size));
     const scale = state.colorBy && engine ? await legend().catch(() => null) : null;

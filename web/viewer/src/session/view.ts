@@ -67,6 +67,8 @@ export class View extends Observable {
   hasFaces: boolean | null = null;
   /** Grows with each change that redraws the picture. */
   revision = 0;
+  /** Counts changes of data on which colours depend, such as owners. */
+  dataRevision = 0;
   /** How the first camera is fitted, from the direction of `state.preset`. */
   framing: Framing = {
     around: "",
@@ -253,6 +255,12 @@ export class View extends Observable {
 
   redraw(): void {
     ++this.revision;
+  }
+
+  /** Redraws after a change of data on which the colours depend. */
+  recolor(): void {
+    ++this.dataRevision;
+    this.redraw();
   }
 
   /** Lays a picture below the model. null: removes it. */

@@ -11,7 +11,7 @@ import { pngOf, save, zipOf } from "../ui/files";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
 import { keptApart, rangeOf } from "./plane_outline";
-import { isSectionBox, sectionBox } from "./section_box";
+import { isSectionBox, placeOf, sectionBox } from "./section_box";
 
 const kAxes: SectionAxis[] = ["x", "y", "z", "free"];
 const kFormats = ["svg", "dxf", "png", "geojson", "csv"] as const;
@@ -212,19 +212,17 @@ export class SectionTool extends Part {
   private add(): void {
     const { sections } = this.session.view.now;
     const axis = (["y", "z", "x"] as const).find((wanted) => !sections.some((section) => section.axis === wanted)) ?? "free";
-    const plane = this.middle({ axis, at: 0, flip: axis === "y", turn: 45, tilt: 0 });
+    const plane = this.placed({ axis, at: 0, flip: axis === "y", turn: 45, tilt: 0 });
     this.session.view.set({ sections: [...sections, keptApart(plane, sections, this.session.volume.box)] });
   }
 
-  /** Removes everything in front of the centre. */
-  private middle(section: Section): Section {
-    const [low, high] = rangeOf(section, this.session.volume.box);
-    return { ...section, at: Number(((low + high) / 2).toFixed(2)) };
+  private placed(section: Section): Section {
+    return { ...section, at: placeOf(section, this.session) };
   }
 
   private turnTo(n: number, axis: SectionAxis): void {
     const section = this.session.view.now.sections[n]!;
-    if (section.axis !== axis) this.change(n, this.middle({ ...section, axis, flip: axis === "y" }));
+    if (section.axis !== axis) this.change(n, this.placed({ ...section, axis, flip: axis === "y" }));
   }
 
   private change(n: number, change: Partial<Section>): void {
