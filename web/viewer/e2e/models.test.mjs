@@ -137,8 +137,8 @@ describe("search and colours", () => {
         .evaluateAll((all) =>
           all.map((e) => [e.innerText.replace(/: \d+$/, ""), getComputedStyle(e.querySelector(".swatch")).backgroundColor]),
         );
-    await inPage("s.view.set({ colorBy: 'class' })");
-    await visit.page.getByRole("list", { name: /^Legend: class/ }).waitFor();
+    await inPage("s.view.set({ colorBy: 'ifcType' })");
+    await legend.waitFor();
     const before = await keys();
     const [first] = before[0];
     await inPage("s.view.set({ hide: [...s.view.state.hide, `class=${v}`] })", first);

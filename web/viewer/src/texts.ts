@@ -82,15 +82,7 @@ const kTexts = {
     "This link shows {name}, a file that is not part of it. Open {name} here to see the view.",
     "Dieser Link zeigt {name}, eine Datei, die er nicht enthält. {name} hier öffnen, um die Ansicht zu sehen.",
   ],
-  linkNeedsFile: [
-    "Copied. The link does not contain {name}. To see the view, open that file there too.",
-    "Kopiert. Der Link enthält {name} nicht. Um die Ansicht zu sehen, auch dort diese Datei öffnen.",
-  ],
   keepFile: ["Keep {name} in this browser", "{name} in diesem Browser behalten"],
-  keepFileHint: [
-    "A reload and your own links find it again. It is not uploaded.",
-    "Neu laden und eigene Links finden sie wieder. Sie wird nicht hochgeladen.",
-  ],
   undo: ["Undo: {what}", "Zurücknehmen: {what}"],
   redo: ["Redo: {what}", "Wiederholen: {what}"],
   undoNothing: ["Nothing to undo", "Nichts zurückzunehmen"],
@@ -214,6 +206,18 @@ const kTexts = {
   stage_voxelize: ["Voxels", "Voxel"],
   stage_patterns: ["Patterns", "Muster"],
   stage_pack: ["Packing", "Wird verpackt"],
+  ownersNeedModel: [
+    "{name} is a table of owners: open the model first, or drop both together.",
+    "{name} ist eine Tabelle von Eigentümern: erst das Modell öffnen, oder beide zusammen ablegen.",
+  ],
+  ownersGiven: [
+    "The owners are from {name}; colours show them. Queries: owner=NAME.",
+    "Eigentümer nach {name}; die Farben zeigen sie. Abfragen: owner=NAME.",
+  ],
+  ownersUnknown: [
+    "Rows that name no feature have no effect: {n}. Line {first}",
+    "Zeilen ohne Wirkung, weil sie kein Objekt nennen: {n}. Zeile {first}",
+  ],
   movedPlane: [
     "{plane} lies in faces of the model and is drawn {mm} mm beside them, on the kept side.",
     "{plane} liegt in Flächen des Modells und ist {mm} mm daneben gezeichnet, auf der Seite, die bleibt.",
@@ -245,15 +249,7 @@ const kTexts = {
   drawAbove: ["cut away", "Weggeschnittenes"],
   drawDimensions: ["dimensions", "Maße"],
   sheets: ["Sheets", "Blätter"],
-  sheetsHint: [
-    "Plans, sections, elevations and tables on paper, as SVG in a ZIP archive",
-    "Grundrisse, Schnitte, Ansichten und Tabellen auf Papier, als SVG in einem ZIP-Archiv",
-  ],
   exportAs: ["Export as {format}", "Als {format} ausgeben"],
-  sectionHint: [
-    "Removes everything beyond a plane. Drag its handle in the picture.",
-    "Entfernt alles jenseits einer Ebene. Ihr Griff lässt sich im Bild ziehen.",
-  ],
   handleLabel: ["Plane {n}: arrow keys move it", "Ebene {n}: Pfeiltasten verschieben sie"],
 
   lensOn: ["Lens on", "Linse an"],

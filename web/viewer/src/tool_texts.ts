@@ -5,17 +5,21 @@
 import { inLanguage } from "./texts";
 
 const kToolTexts = {
-  ownersNeedModel: [
-    "{name} is a table of owners: open the model first, or drop both together.",
-    "{name} ist eine Tabelle von Eigentümern: erst das Modell öffnen, oder beide zusammen ablegen.",
+  linkNeedsFile: [
+    "Copied. The link does not contain {name}. To see the view, open that file there too.",
+    "Kopiert. Der Link enthält {name} nicht. Um die Ansicht zu sehen, auch dort diese Datei öffnen.",
   ],
-  ownersGiven: [
-    "The owners are from {name}; colours show them. Queries: owner=NAME.",
-    "Eigentümer nach {name}; die Farben zeigen sie. Abfragen: owner=NAME.",
+  sheetsHint: [
+    "Plans, sections, elevations and tables on paper, as SVG in a ZIP archive",
+    "Grundrisse, Schnitte, Ansichten und Tabellen auf Papier, als SVG in einem ZIP-Archiv",
   ],
-  ownersUnknown: [
-    "Rows that name no feature have no effect: {n}. Line {first}",
-    "Zeilen ohne Wirkung, weil sie kein Objekt nennen: {n}. Zeile {first}",
+  sectionHint: [
+    "Removes everything beyond a plane. Drag its handle in the picture.",
+    "Entfernt alles jenseits einer Ebene. Ihr Griff lässt sich im Bild ziehen.",
+  ],
+  keepFileHint: [
+    "A reload and your own links find it again. It is not uploaded.",
+    "Neu laden und eigene Links finden sie wieder. Sie wird nicht hochgeladen.",
   ],
   cube: ["View cube", "Ansichtswürfel"],
   cubeHint: [

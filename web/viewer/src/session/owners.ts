@@ -1,6 +1,6 @@
 /** A table of owners or parcels (CSV) that was dropped on the page. It sets owners of features, for colours and queries. */
 
-import { toolText } from "../tool_texts";
+import { t } from "../texts";
 import { ViewPart } from "./view_part";
 
 export class Owners extends ViewPart {
@@ -11,15 +11,15 @@ export class Owners extends ViewPart {
   /** Applies a table, and colours features by it at once. Rejects with an error of the library that names the line. */
   async give(table: ArrayBuffer, file: string): Promise<void> {
     const { engine, info } = this.volume;
-    if (!engine || !info) return this.messages.tell(toolText("ownersNeedModel", { name: file }));
+    if (!engine || !info) return this.messages.tell(t("ownersNeedModel", { name: file }));
     const unknown = await engine.owners(table.slice(0), file);
     this.table = table;
     this.file = file;
     if (this.view.state.colorBy === "owner") this.view.recolor();
     else this.view.set({ colorBy: "owner" });
-    const given = toolText("ownersGiven", { name: file });
+    const given = t("ownersGiven", { name: file });
     const [first] = unknown;
-    this.messages.tell(first ? `${given} ${toolText("ownersUnknown", { n: unknown.length, first })}` : given);
+    this.messages.tell(first ? `${given} ${t("ownersUnknown", { n: unknown.length, first })}` : given);
   }
 
   /** Applies the table to a volume that replaced another one of the same model. */

@@ -73,7 +73,7 @@ export class SectionTool extends Part {
     const isBox = isSectionBox(sections);
     const isHatched = hatches ?? (look === "paper" || look === "blueprint");
     return html`
-      ${sections.length ? nothing : html`<p class="quiet">${t("sectionHint")}</p>`}
+      ${sections.length ? nothing : html`<p class="quiet">${toolText("sectionHint")}</p>`}
       ${this.storeys()}
       ${isBox ? this.box(sections) : sections.map((section, n) => this.plane(section, n))}
       <div class="row">
@@ -119,7 +119,7 @@ export class SectionTool extends Part {
           this.parts = { ...this.parts, [part]: (e.target as HTMLInputElement).checked };
         }} />${t(text)}</label>`,
     )}</div>
-    <div class="row"><button id="draw-sheets" title=${t("sheetsHint")} ?disabled=${this.isDrawing} @click=${() => void this.sheets((sheets) => save(zipOf(sheets.map((text, n) => ({ name: `sheet-${n + 1}.svg`, text }))), "sheets.zip"))}>${t("sheets")}</button>
+    <div class="row"><button id="draw-sheets" title=${toolText("sheetsHint")} ?disabled=${this.isDrawing} @click=${() => void this.sheets((sheets) => save(zipOf(sheets.map((text, n) => ({ name: `sheet-${n + 1}.svg`, text }))), "sheets.zip"))}>${t("sheets")}</button>
       <button id="print-sheets" title=${toolText("printHint")} ?disabled=${this.isDrawing} @click=${() => void this.sheets(async (sheets) => (await import("./print_sheets")).printSheets(sheets))}>${toolText("print")}</button></div>`;
   }
 

@@ -73,7 +73,7 @@ export class ShareTool extends Part {
       ${this.sceneText !== null ? this.scene(this.sceneText) : nothing}
       ${
         this.session.volume.isLocal && !this.session.volume.compared
-          ? html`<label class="check" title=${t("keepFileHint")}><input type="checkbox" id="keep-file" .checked=${this.isFileKept} @change=${(e: Event) => void this.keepFile((e.target as HTMLInputElement).checked)} />
+          ? html`<label class="check" title=${toolText("keepFileHint")}><input type="checkbox" id="keep-file" .checked=${this.isFileKept} @change=${(e: Event) => void this.keepFile((e.target as HTMLInputElement).checked)} />
         ${t("keepFile", { name: this.session.volume.file })}</label>`
           : nothing
       }
@@ -126,7 +126,9 @@ export class ShareTool extends Part {
     const isCopied = await copy(location.href);
     if (!isCopied) return session.messages.tell(t("notCopied"));
     if (session.volume.isLocal)
-      session.messages.tell(t("linkNeedsFile", { name: Object.values(session.volume.compared ?? session.volume.fileNames).join(", ") }));
+      session.messages.tell(
+        toolText("linkNeedsFile", { name: Object.values(session.volume.compared ?? session.volume.fileNames).join(", ") }),
+      );
     else if (isOfThisMachine(location)) session.messages.tell(toolText("linkOnThisMachine"));
     else if (location.href.length > kLongLink) session.messages.tell(toolText("linkTooLong", { n: location.href.length }));
     else session.messages.tell(t("copied"));
