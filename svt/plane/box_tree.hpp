@@ -50,8 +50,7 @@ public:
     /// first hit tests fewer boxes. Calls `body(i)` for each box i with isNear(box).
     template <class IsNear, class Body>
     void forEachAlong(Vec3d direction, const IsNear& isNear, const Body& body) const {
-        const auto isRightFirst = [&](const Node& node) {
-            const Box3d &left = nodes_[&node - nodes_.data() + 1].box, &right = nodes_[node.right].box;
+        const auto isRightFirst = [&](const Box3d& left, const Box3d& right) {
             return dot(right.center() - left.center(), direction) < 0;
         };
         static_cast<void>(
@@ -111,7 +110,7 @@ private:
     }
 
     struct LeftFirst {
-        bool operator()(const Node&) const noexcept { return false; }
+        bool operator()(const Box3d&, const Box3d&) const noexcept { return false; }
     };
 
     template <class IsNodeNear, class IsNear, class Take, class IsRightFirst = LeftFirst>
@@ -125,7 +124,7 @@ private:
             const Node& node = nodes_[index];
             if (!isNodeNear(node.box, index)) continue;
             if (node.right != 0) {
-                const bool isSwapped = isRightFirst(node);
+                const bool isSwapped = isRightFirst(nodes_[index + 1].box, nodes_[node.right].box);
                 stack[depth++] = isSwapped ? index + 1 : node.right;
                 stack[depth++] = isSwapped ? node.right : index + 1;
                 continue;

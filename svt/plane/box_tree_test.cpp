@@ -56,6 +56,22 @@ TEST(BoxTree, EndsWithTheFirstCallThatReturnsTrue) {
     EXPECT_FALSE(BoxTree().visit([](const Box3d&) { return true; }, [](std::uint32_t) { return true; }));
 }
 
+TEST(BoxTree, AlongADirectionFindsTheSameBoxesTheNearerHalfFirst) {
+    std::vector<Box3d> boxes;
+    for (int n = 0; n < 64; ++n) boxes.push_back({{n * 2.0, 0, 0}, {n * 2.0 + 1, 1, 1}});
+    const BoxTree tree(boxes, BoxTree::Halving{1, true});
+    for (const double sign : {1.0, -1.0}) {
+        std::vector<std::uint32_t> found;
+        tree.forEachAlong(
+            {sign, 0, 0}, [](const Box3d& box) { return box.max.x > 32; },
+            [&](std::uint32_t n) { found.push_back(n); });
+        ASSERT_EQ(found.size(), 48u);
+        EXPECT_EQ(found.front(), sign > 0 ? 16u : 63u);
+        if (sign < 0) std::reverse(found.begin(), found.end());
+        EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+    }
+}
+
 TEST(BoxTree, SlabsLeaveOutOnlyTrianglesThatDoNotReachEachOther) {
     // Long slanted triangles side by side: all boxes meet, few triangles do.
     std::vector<SpaceTriangle> triangles;

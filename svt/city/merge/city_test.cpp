@@ -289,7 +289,6 @@ TEST_F(SmallCity, LosesNoBuildingAtAnyDetail) {
     EXPECT_TRUE(city.read(city.top()));
 }
 
-// A call whose bytes come later names them, and gives the same once they are there.
 TEST_F(SmallCity, RefusesAnIndexOfWordsWithImpossibleCounts) {
     write(folder / "files", samples::CityProfile::Berlin, 1);
     build(plan());
@@ -430,6 +429,7 @@ TEST_F(SmallCity, NamesDamageOfTheIndexOfWords) {
     EXPECT_TRUE(bytes("words.bin") == good);
 }
 
+// A call whose bytes come later names them, and gives the same once they are there.
 TEST_F(SmallCity, IsReadFromBytesThatAreGivenLater) {
     write(folder / "files", samples::CityProfile::Berlin, 2);
     build(plan());

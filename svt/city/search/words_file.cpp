@@ -170,7 +170,8 @@ struct WordsWriter::State {
     Result<void> spill() {
         if (!folder) folder.emplace();
         if (folder->path().empty())
-            return Error(Code::CannotWrite, "there is no temporary folder for the index of words; set TMPDIR");
+            return Error(Code::CannotWrite,
+                         "cannot make a temporary folder for the index of words; set TMPDIR to a writable folder");
         const std::filesystem::path path = folder->path() / fmt::format("words-{}", runs.size());
         SVT_TRY(run, AtomicFile::create(path));
         std::string text;

@@ -136,20 +136,18 @@ struct Descendants {
     }
 };
 
-template <class Condition>
-Mask rowsWhere(Rows rows, const Condition& condition) {
-    Mask mask(rows.size(), 0);
-    for (std::size_t i = 0; i < rows.size(); ++i) mask[i] = condition(rows[i]) ? 1 : 0;
-    return mask;
-}
-
-/// The same for rows in `among`; the others do not match.
+/// The rows in `among` that match; other rows do not match.
 template <class Condition>
 Mask rowsWhere(Rows rows, const Mask& among, const Condition& condition) {
     Mask mask = among;
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (among[i]) mask[i] = condition(rows[i]) ? 1 : 0;
     return mask;
+}
+
+template <class Condition>
+Mask rowsWhere(Rows rows, const Condition& condition) {
+    return rowsWhere(rows, Mask(rows.size(), 1), condition);
 }
 
 /// Values of several terms of one kind, so that a row is compared with all of them at once.

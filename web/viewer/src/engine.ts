@@ -285,7 +285,7 @@ export const kCalls = {
   drawing: call<(plane: string, format: DrawingFormat, parts?: DrawingParts) => ArrayBuffer>(),
   /**
    * Sets the owners of features, as attributes `owner`, from a table (CSV). Replaces an earlier table. Resolves to messages on the
-   * rows that name no feature, with their lines.
+   * first rows that name no feature, with their lines; at most 1000.
    */
   owners: call<(table: ArrayBuffer, fileName: string) => string[]>(),
   /** The eye of a person standing near a point, inside if possible; null: there is no place to stand. */

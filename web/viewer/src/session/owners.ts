@@ -3,6 +3,9 @@
 import { t } from "../texts";
 import { ViewPart } from "./view_part";
 
+/** Maximum number of messages on rows. */
+const kMostMessages = 1000;
+
 export class Owners extends ViewPart {
   /** Name of the table; empty: no table. */
   file = "";
@@ -19,7 +22,11 @@ export class Owners extends ViewPart {
     else this.view.set({ colorBy: "owner" });
     const given = t("ownersGiven", { name: file });
     const [first] = unknown;
-    this.messages.tell(first ? `${given} ${t("ownersUnknown", { n: unknown.length, first })}` : given);
+    this.messages.tell(
+      first
+        ? `${given} ${t("ownersUnknown", { n: unknown.length < kMostMessages ? unknown.length : `≥ ${kMostMessages}`, first })}`
+        : given,
+    );
   }
 
   /** Applies the table to a volume that replaced another one of the same model. */
