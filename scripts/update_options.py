@@ -2,8 +2,8 @@
 """Writes what is made from the declarations of options (`svt describe json`): the tables of options in docs/user,
 the table of formats in docs/user/convert.md, the options of projects in docs/user/configuration.md,
 docs/formats/scene.schema.json, docs/formats/sheets.schema.json, and in web/viewer/src/generated scene_members.ts, from
-which the viewer page has the ranges, choices, defaults and help of its controls, and model_endings.ts, the endings of
-files that it opens.
+which the viewer page has the ranges, choices, defaults and help of its controls, model_endings.ts, the endings of
+files that it opens, and class_terms.ts, the words for classes.
 
     scripts/update_options.py [--svt build/release/bin/svt] [--check]
 
@@ -30,6 +30,15 @@ PAGE_ENDINGS = """\
  */
 
 export const kModelEndings = %s as const;
+"""
+PAGE_CLASSES = """\
+/**
+ * Words for classes and types, without the prefix Ifc, in English and German: those of svt/writers/sheets/class_words.cpp.
+ * An empty English word is the name itself. scripts/update_options.py generates this file; manual changes are lost.
+ */
+
+export const kClassTerms: Readonly<Record<string, readonly [english: string, german: string]>> = {
+%s};
 """
 PAGE_MEMBERS_BEGIN = """\
 /**
@@ -302,6 +311,14 @@ def page_endings(described: dict) -> str:
     return PAGE_ENDINGS % json.dumps(list(endings))
 
 
+def page_classes(described: dict) -> str:
+    rows = [
+        f"  {row['name']}: [{json.dumps(row['english'])}, {json.dumps(row['german'], ensure_ascii=False)}],\n"
+        for row in described["classes"]
+    ]
+    return PAGE_CLASSES % "".join(rows)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--svt", default=str(ROOT / "build/release/bin/svt"))
@@ -318,6 +335,7 @@ def main() -> int:
         ROOT / "docs/formats/sheets.schema.json": sheets_schema(described),
         ROOT / "web/viewer/src/generated/scene_members.ts": page_members(described),
         ROOT / "web/viewer/src/generated/model_endings.ts": page_endings(described),
+        ROOT / "web/viewer/src/generated/class_terms.ts": page_classes(described),
     }
     for command in described["commands"]:
         path = ROOT / "docs/user" / f"{command['name']}.md"

@@ -47,6 +47,10 @@ struct CitySection {
     volume::SemanticVolume volume;
 };
 
+/// The tiles of detail 0 that cutCity() reads.
+/// \return the tiles, or an error of frameVolume(), parseSectionPlane(), City::find()
+[[nodiscard]] Result<std::vector<IndexEntry>> tilesOfSection(const City& city, const std::string& plane);
+
 /// Cuts the tiles of a city that a plane meets, one after the other. Each building is complete in its tile, so there
 /// are no seams.
 /// \param plane  see parseSectionPlane(); positions refer to the box of the city

@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,15 @@ enum class SheetLanguage : std::uint8_t { English, German };
 constexpr auto namesOf(SheetLanguage) {
     return std::to_array<Name<SheetLanguage>>({{SheetLanguage::English, "en"}, {SheetLanguage::German, "de"}});
 }
+
+/// The word for a class of CityGML or a type of IFC.
+struct ClassTerm {
+    std::string_view name;     ///< of the class or type, without the prefix Ifc
+    std::string_view english;  ///< empty: the words of the name itself
+    std::string_view german;
+};
+/// All words that sheets have for classes and types.
+[[nodiscard]] std::span<const ClassTerm> classTerms() noexcept;
 
 /// A table on sheets of its own.
 struct SheetTable {

@@ -294,10 +294,10 @@ test("hostile models end with their codes, and the next model opens", () => {
   assert.ok(findings.some((finding) => finding.includes("E111")));
 });
 
-/** Answers the module with ranges of bytes of the city's folder until it has all that the scene shows. */
-function look(city, scene, isOther) {
-  for (let first = isOther; ; first = false) {
-    const reply = ask("cityLook", first, scene, ...scene.size, { pixels: 1, memory: 1e9, shown: "" });
+/** Answers the module with ranges of bytes of the city's folder until a call has all that it needs. */
+function askCity(city, call, argsOf) {
+  for (let round = 0; ; ++round) {
+    const reply = ask(call, ...argsOf(round));
     if (!reply.needs) return reply;
     const given = reply.needs.map(([name, offset, size]) => {
       const all = readFileSync(join(city, name));
@@ -307,6 +307,10 @@ function look(city, scene, isOther) {
     svt.call("cityGive", [rows], Buffer.concat(given.map(({ bytes }) => bytes)));
   }
 }
+
+/** Shows the part of a city that a scene shows. */
+const look = (city, scene, isOther) =>
+  askCity(city, "cityLook", (round) => [isOther && round === 0, scene, ...scene.size, { pixels: 1, memory: 1e9, shown: "" }]);
 
 test("a city is drawn as by the command, near and far, with styles by class and shadows", () => {
   run("sample", "district", "--columns", "24", "--rows", "3", "-o", at("town.gml"));
@@ -328,6 +332,22 @@ test("a city is drawn as by the command, near and far, with styles by class and 
     return coarsest;
   });
   assert.equal(details[1], 3, "a mixture of classes");
+  for (const plane of ["x=30", "z=2.5", "0.6,0.8,0,-40"]) {
+    const formats = ["svg", "dxf", "geojson", "csv"];
+    for (const format of formats.slice(0, 3)) run("section", at("town"), "--plane", plane, "-o", at(`c.${format}`));
+    run("section", at("town"), "--plane", plane, "--table", at("c.csv"));
+    for (const format of formats)
+      assert.equal(
+        askCity(at("town"), "cityDrawing", () => [plane, format, 1e9]).text,
+        readFileSync(at(`c.${format}`), "utf8"),
+        `${plane} ${format}`,
+      );
+  }
+  for (const [plane, most, said] of [
+    ["z=2.5", 1000, /may cut \d+ tiles with .* MB, and the page reads at most/],
+    ["z=18", 1e9, /cuts no visible feature/],
+  ])
+    assert.throws(() => askCity(at("town"), "cityDrawing", () => [plane, "svg", most]), { code: "E503", message: said });
 });
 
 const real = join(process.env.SVT_DATA_DIR ?? "../shared/data", "fzk_haus_citygml3.gml");

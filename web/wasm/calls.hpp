@@ -2,6 +2,7 @@
 /// \file
 /// A call of the module: arguments in, a reply or an error out.
 
+#include "city.hpp"
 #include "font/font.hpp"
 #include "session.hpp"
 
@@ -81,6 +82,12 @@ private:
 
 /// The open volume, for calls that need one.
 [[nodiscard]] Session& openSession() noexcept;
+
+/// The city of the page, which reads its files when a call needs them.
+[[nodiscard]] CityPage& openCity();
+/// Bytes of the city that a call has lacked, as {needs: [[file, offset, size], ...]}: the page gives them, and repeats
+/// the call. Null: none.
+[[nodiscard]] Json neededBytes();
 
 /// Runs a call by its name; each module has its own calls.
 [[nodiscard]] Result<Reply> runCall(std::string_view name, const Arguments& arguments);

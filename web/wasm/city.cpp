@@ -92,4 +92,24 @@ Result<city::City::Found> CityPage::search(const std::string& text, std::size_t 
     return found;
 }
 
+Result<city::CitySection> CityPage::cut(const std::string& plane, const drawing::SectionOptions& options,
+                                        std::uint64_t mostBytes, const Progress* progress) {
+    SVT_DO(open());
+    SVT_TRY(tiles, city::tilesOfSection(*city_, plane));
+    std::uint64_t bytes = 0;
+    for (const city::IndexEntry& entry : *tiles) bytes += entry.size;
+    if (bytes > mostBytes)
+        return Error(
+            Code::BadSection,
+            fmt::format("the plane '{}' may cut {} tiles with {:.0f} MB, and the page reads at most {:.0f} MB; "
+                        "draw it with 'svt section CITY --plane', or choose another plane",
+                        plane, tiles->size(), double(bytes) / 1e6, double(mostBytes) / 1e6));
+    for (const city::IndexEntry& entry : *tiles)
+        if (auto read = city_->readBytes(entry); !read && !bytes_.isWanting()) return read.error();
+    if (bytes_.isWanting()) return Error(Code::CannotOpen, "bytes of tiles are not here yet");
+    auto section = city::cutCity(*city_, plane, options, progress);
+    bytes_.forget();
+    return section;
+}
+
 }  // namespace svt::web

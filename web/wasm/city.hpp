@@ -6,6 +6,7 @@
 
 #include <svt/city/city_bytes.hpp>
 #include <svt/city/city_view.hpp>
+#include <svt/city/city_walk.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -49,6 +50,11 @@ public:
                                                        double aspect);
     /// Buildings of the whole city by words: City::search(). Errors also as look().
     [[nodiscard]] Result<city::City::Found> search(const std::string& text, std::size_t most);
+    /// Cuts the tiles of detail 0 that a plane meets: city::cutCity(). All these tiles are fetched at once.
+    /// \param mostBytes  limit of their members
+    /// \return the section; BadSection if the limit is exceeded; else an error of cutCity(), or as look()
+    [[nodiscard]] Result<city::CitySection> cut(const std::string& plane, const drawing::SectionOptions& options,
+                                                std::uint64_t mostBytes, const Progress* progress);
     [[nodiscard]] const std::optional<city::City>& city() const noexcept { return city_; }
 
 private:

@@ -1,6 +1,5 @@
 // The calls on an open volume or city, see kCalls.
 #include "calls.hpp"
-#include "city.hpp"
 #include "font/font.hpp"
 #include "replies.hpp"
 #include "walk.hpp"
@@ -208,14 +207,6 @@ Result<Reply> view(const Arguments& arguments) {
     return Reply(cameraText(*camera));
 }
 
-// Bytes that are needed first, as {needs: [[file, offset, size], ...]}, or null.
-Json needsJson() {
-    Json list = Json::array();
-    for (const city::CityBytes::Range& range : cityPage->bytes().wanted())
-        list.push_back({range.name, range.offset, range.size});
-    return list.empty() ? Json(nullptr) : Json{{"needs", std::move(list)}};
-}
-
 // ([[file, offset, size, bytes given, size of the file, reason for missing bytes], ...]) and the concatenated bytes ->
 // nothing
 Result<Reply> cityGive(const Arguments& arguments) {
@@ -226,13 +217,13 @@ Result<Reply> cityGive(const Arguments& arguments) {
                                            row.at(2).get<std::uint64_t>()};
         const auto size = row.at(3).get<std::size_t>();
         if (row.at(5).is_string()) {
-            cityPage->bytes().refuse(range, row.at(5).get<std::string>());
+            openCity().bytes().refuse(range, row.at(5).get<std::string>());
             continue;
         }
         const auto own = bytes.subspan(at, size);
         at += size;
-        cityPage->bytes().give(range, std::string(reinterpret_cast<const char*>(own.data()), own.size()),
-                               row.at(4).get<std::uint64_t>());
+        openCity().bytes().give(range, std::string(reinterpret_cast<const char*>(own.data()), own.size()),
+                                row.at(4).get<std::uint64_t>());
     }
     return Reply(std::string("null"));
 }
@@ -241,7 +232,7 @@ Result<Reply> cityGive(const Arguments& arguments) {
 // nothing new), key, tiles, bytes, pixels, finest, coarsest, lacks, heap}: then the part of the city that the scene
 // shows is open
 Result<Reply> cityLook(const Arguments& arguments) {
-    if (!cityPage || arguments.at(0) == true) cityPage = std::make_unique<CityPage>();
+    if (arguments.at(0) == true) cityPage.reset();
     CityWish wish;
     if (arguments.at(1).is_object()) {
         SVT_TRY(scene, arguments.scene(1));
@@ -253,8 +244,8 @@ Result<Reply> cityLook(const Arguments& arguments) {
     wish.shown = options.value("shown", std::string());
     wish.pixels = options.value("pixels", 1.0);
     wish.memoryBytes = static_cast<std::uint64_t>(std::max(0.0, options.value("memory", 0.0)));
-    auto look = cityPage->look(wish);
-    const Json needs = needsJson();
+    auto look = openCity().look(wish);
+    const Json needs = neededBytes();
     if (!look) return needs.is_null() ? Result<Reply>(look.error()) : Reply(needs.dump());
     Json reply{{"info", nullptr},        {"key", look->key},          {"tiles", look->tiles},
                {"bytes", look->bytes},   {"pixels", look->pixels},    {"lacks", look->lacks},
@@ -263,7 +254,7 @@ Result<Reply> cityLook(const Arguments& arguments) {
         session = std::move(look->session);
         reply["info"] = Json::parse(infoOf(*session));
         reply["info"]["source"] = "city.json";
-        reply["info"]["buildings"] = cityPage->city()->buildings();
+        reply["info"]["buildings"] = openCity().city()->buildings();
     }
     reply["heap"] = std::uint64_t{__builtin_wasm_memory_size(0)} * 65536;
     return Reply(reply.dump(-1, ' ', false, Json::error_handler_t::replace));
@@ -279,8 +270,8 @@ Result<Reply> cityDrop(const Arguments&) {
 Result<Reply> cityFind(const Arguments& arguments) {
     const auto now = illustrate::parseScene(Json{{"camera", arguments.at(1)}}.dump(), "camera");
     if (!now) return now.error();
-    auto camera = cityPage->find(arguments.text(0), now->camera, std::max(0.01, arguments.number(2)));
-    const Json needs = needsJson();
+    auto camera = openCity().find(arguments.text(0), now->camera, std::max(0.01, arguments.number(2)));
+    const Json needs = neededBytes();
     if (!camera) return needs.is_null() ? Result<Reply>(camera.error()) : Reply(needs.dump());
     return Reply(cameraText(*camera));
 }
@@ -288,8 +279,8 @@ Result<Reply> cityFind(const Arguments& arguments) {
 // (words, maximum of buildings) -> {needs}, or {count, buildings: [{id, name, class, address}, ...]}
 Result<Reply> citySearch(const Arguments& arguments) {
     const auto found =
-        cityPage->search(arguments.text(0), static_cast<std::size_t>(std::max(0.0, arguments.number(1))));
-    const Json needs = needsJson();
+        openCity().search(arguments.text(0), static_cast<std::size_t>(std::max(0.0, arguments.number(1))));
+    const Json needs = neededBytes();
     if (!found) return needs.is_null() ? Result<Reply>(found.error()) : Reply(needs.dump());
     Json buildings = Json::array();
     for (const auto& [id, name, className, address] : found->buildings)
@@ -351,12 +342,22 @@ constexpr Call kCalls[] = {{"open", open, false},
 
 Session& openSession() noexcept { return *session; }
 
+Json neededBytes() {
+    Json list = Json::array();
+    for (const city::CityBytes::Range& range : openCity().bytes().wanted())
+        list.push_back({range.name, range.offset, range.size});
+    return list.empty() ? Json(nullptr) : Json{{"needs", std::move(list)}};
+}
+
+CityPage& openCity() {
+    if (!cityPage) cityPage = std::make_unique<CityPage>();
+    return *cityPage;
+}
+
 Result<Reply> runCall(std::string_view name, const Arguments& arguments) {
     for (const std::span<const Call> calls : {std::span<const Call>(kCalls), wholeCalls()}) {
         const Call* const call = findCall(calls, name);
         if (call == nullptr) continue;
-        if (call->name.starts_with("city") && call->name != "cityLook" && !cityPage)
-            return Error(Code::BadArgument, "no city is open; open one first");
         if (call->needsVolume && !session) return Error(Code::BadArgument, "no volume is open; open one first");
         return call->run(arguments);
     }

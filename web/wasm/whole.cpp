@@ -17,6 +17,11 @@ namespace {
 // Size of a draft, which is built immediately.
 constexpr std::uint64_t kDraftBytes = 40'000'000;
 
+Result<void> checkDrawn(const drawing::SectionDrawing& drawing, const std::string& plane) {
+    if (!drawing.components.empty() || !drawing.beyond.empty()) return {};
+    return Error(Code::BadSection, fmt::format("the plane '{}' cuts no visible feature; move it", plane));
+}
+
 // (plane, format, {beyond, above, dimensions}) -> the file's bytes
 Result<Reply> drawing(const Arguments& arguments) {
     const volume::SemanticVolume& volume = openSession().volume();
@@ -27,10 +32,20 @@ Result<Reply> drawing(const Arguments& arguments) {
     options.beyond.above = wanted.is_object() && wanted.value("above", false);
     options.dimensions = wanted.is_object() && wanted.value("dimensions", false);
     SVT_TRY(drawn, drawing::drawSection(volume, *plane, options));
-    if (drawn->components.empty() && drawn->beyond.empty())
-        return Error(Code::BadSection,
-                     fmt::format("the plane '{}' cuts no visible feature; move it", arguments.text(0)));
+    SVT_DO(checkDrawn(*drawn, arguments.text(0)));
     return replyOf(writers::makeDrawing(*drawn, volume, arguments.text(1)));
+}
+
+// (plane, format, maximum of bytes of the tiles) -> {needs}, or {text}: the file of a section of the city
+Result<Reply> cityDrawing(const Arguments& arguments) {
+    const Progress progress = progressOfPage();
+    const auto most = static_cast<std::uint64_t>(std::max(0.0, arguments.number(2)));
+    const auto section = openCity().cut(arguments.text(0), drawing::SectionOptions{}, most, &progress);
+    const Json needs = neededBytes();
+    if (!section) return needs.is_null() ? Result<Reply>(section.error()) : Reply(needs.dump());
+    SVT_DO(checkDrawn(section->drawing, arguments.text(0)));
+    SVT_TRY(text, writers::makeDrawing(section->drawing, section->volume, arguments.text(1)));
+    return Reply(Json{{"text", *text}}.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 // ("en" or "de") -> the sheets of `svt sheets --svg`: SVG documents. Needs the font.
@@ -67,7 +82,7 @@ Result<BuiltVolume> buildModels(std::span<const NamedBytes> files, const OpenOpt
 illustrate::FaceMaker faceMaker() noexcept { return illustrate::makeFaces; }
 
 std::span<const Call> wholeCalls() noexcept {
-    static constexpr Call kCalls[] = {{"drawing", drawing}, {"sheets", sheets}};
+    static constexpr Call kCalls[] = {{"drawing", drawing}, {"sheets", sheets}, {"cityDrawing", cityDrawing, false}};
     return kCalls;
 }
 

@@ -10,6 +10,7 @@
 #include <svt/drawing/sheet_set.hpp>
 #include <svt/illustrate/scene_members.hpp>
 #include <svt/readers/read_model.hpp>
+#include <svt/writers/sheet_writer.hpp>
 #include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
@@ -93,6 +94,8 @@ Json describedJson() {
                                          {"readers", format.readers}});
     for (const readers::Format& format : readers::formats())
         json["modelFormats"].push_back({{"name", format.holds}, {"endings", splitChoices(format.endings)}});
+    for (const auto& [name, english, german] : writers::classTerms())
+        json["classes"].push_back({{"name", name}, {"english", english}, {"german", german}});
     return json;
 }
 

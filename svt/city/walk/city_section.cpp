@@ -125,6 +125,14 @@ bool cuts(const drawing::SectionPlane& plane, const volume::Grid& grid) {
 
 }  // namespace
 
+Result<std::vector<IndexEntry>> tilesOfSection(const City& city, const std::string& text) {
+    SVT_TRY(frame, frameVolume(city));
+    SVT_TRY(plane, drawing::parseSectionPlane(text, *frame));
+    SVT_TRY(entries, city.find(0, kEverywhere));
+    std::erase_if(*entries, [&](const IndexEntry& entry) { return !mayCut(*plane, entry); });
+    return std::move(*entries);
+}
+
 Result<CitySection> cutCity(const City& city, const std::string& text, const drawing::SectionOptions& options,
                             const Progress* progress) {
     SVT_TRY(frame, frameVolume(city));

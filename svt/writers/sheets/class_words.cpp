@@ -1,13 +1,14 @@
 #include <svt/writers/sheets/class_words.hpp>
 
 #include <svt/core/text.hpp>
-#include <svt/writers/sheets/term.hpp>
+
+#include <algorithm>
+#include <iterator>
 
 namespace svt::writers {
 namespace {
 
-// Without the prefix Ifc. An empty English word is that of splitName().
-constexpr Term<std::string_view> kClassTerms[] = {
+constexpr ClassTerm kClassTerms[] = {
     {"Wall", "", "Wand"},
     {"CurtainWall", "", "Vorhangfassade"},
     {"Slab", "", "Decke"},
@@ -91,6 +92,122 @@ constexpr Term<std::string_view> kClassTerms[] = {
     {"Road", "", "Straße"},
     {"Bridge", "", "Brücke"},
     {"GenericCityObject", "Other object", "Sonstiges Objekt"},
+    {"Space", "", "Raum"},
+    {"Room", "", "Raum"},
+    {"BuildingRoom", "Room", "Raum"},
+    {"SpatialZone", "Zone", "Zone"},
+    {"Zone", "", "Zone"},
+    {"Storey", "", "Geschoss"},
+    {"BuildingStorey", "Storey", "Geschoss"},
+    {"BuildingUnit", "Unit", "Nutzungseinheit"},
+    {"CellSpace", "Cell", "Raumzelle"},
+    {"Actuator", "", "Stellantrieb"},
+    {"AirTerminal", "", "Luftauslass"},
+    {"AirTerminalBox", "", "Luftverteilkasten"},
+    {"AirToAirHeatRecovery", "Heat recovery", "Wärmerückgewinnung"},
+    {"Alarm", "", "Melder"},
+    {"AudioVisualAppliance", "Audio and video device", "Audio- und Videogerät"},
+    {"Boiler", "", "Heizkessel"},
+    {"Burner", "", "Brenner"},
+    {"CableCarrierFitting", "Cable tray fitting", "Kabeltrassenformstück"},
+    {"CableFitting", "", "Kabelanschluss"},
+    {"Chiller", "", "Kältemaschine"},
+    {"Coil", "", "Heiz- oder Kühlregister"},
+    {"CommunicationsAppliance", "Communication device", "Kommunikationsgerät"},
+    {"Compressor", "", "Verdichter"},
+    {"Condenser", "", "Verflüssiger"},
+    {"Controller", "", "Regler"},
+    {"CooledBeam", "Chilled beam", "Kühlbalken"},
+    {"CoolingTower", "", "Kühlturm"},
+    {"Damper", "", "Klappe"},
+    {"DistributionChamberElement", "Chamber", "Schacht"},
+    {"DistributionControlElement", "Control device", "Regelgerät"},
+    {"DistributionFlowElement", "Building services", "Haustechnik"},
+    {"DistributionPort", "Port", "Anschluss"},
+    {"DuctSilencer", "", "Schalldämpfer"},
+    {"ElectricAppliance", "", "Elektrogerät"},
+    {"ElectricDistributionBoard", "Distribution board", "Elektroverteiler"},
+    {"ElectricFlowStorageDevice", "Battery", "Stromspeicher"},
+    {"ElectricGenerator", "Generator", "Generator"},
+    {"ElectricMotor", "", "Elektromotor"},
+    {"ElectricTimeControl", "Timer", "Zeitschaltuhr"},
+    {"Engine", "", "Motor"},
+    {"EvaporativeCooler", "", "Verdunstungskühler"},
+    {"Evaporator", "", "Verdampfer"},
+    {"Fan", "", "Ventilator"},
+    {"Filter", "", "Filter"},
+    {"FireSuppressionTerminal", "Fire suppression", "Löscheinrichtung"},
+    {"FlowInstrument", "", "Messgerät"},
+    {"FlowMeter", "", "Zähler"},
+    {"FlowTreatmentDevice", "Treatment device", "Aufbereitungsgerät"},
+    {"HeatExchanger", "", "Wärmetauscher"},
+    {"Humidifier", "", "Befeuchter"},
+    {"Interceptor", "", "Abscheider"},
+    {"JunctionBox", "", "Abzweigdose"},
+    {"Lamp", "", "Leuchtmittel"},
+    {"MedicalDevice", "", "Medizingerät"},
+    {"MotorConnection", "", "Motoranschluss"},
+    {"Outlet", "", "Steckdose"},
+    {"ProtectiveDevice", "", "Schutzgerät"},
+    {"Pump", "", "Pumpe"},
+    {"Sensor", "", "Sensor"},
+    {"SolarDevice", "", "Solaranlage"},
+    {"SpaceHeater", "", "Heizkörper"},
+    {"StackTerminal", "", "Schornsteinkopf"},
+    {"SwitchingDevice", "Switch", "Schalter"},
+    {"Tank", "", "Behälter"},
+    {"Transformer", "", "Transformator"},
+    {"UnitaryControlElement", "Control unit", "Bedien- und Regelgerät"},
+    {"UnitaryEquipment", "Air handling unit", "Klimagerät"},
+    {"Valve", "", "Ventil"},
+    {"WasteTerminal", "", "Ablauf"},
+    {"ReinforcingElement", "Reinforcement", "Bewehrung"},
+    {"TendonAnchor", "", "Spannanker"},
+    {"VibrationIsolator", "", "Schwingungsdämpfer"},
+    {"SystemFurnitureElement", "Furniture", "Möbel"},
+    {"ProjectionElement", "Projection", "Vorsprung"},
+    {"VirtualElement", "Virtual boundary", "Virtuelle Begrenzung"},
+    {"CivilElement", "Civil work", "Tiefbauteil"},
+    {"Bearing", "", "Lager"},
+    {"DeepFoundation", "", "Tiefgründung"},
+    {"Kerb", "", "Bordstein"},
+    {"Pavement", "", "Fahrbahnbelag"},
+    {"Rail", "", "Schiene"},
+    {"Sign", "", "Schild"},
+    {"Signal", "", "Signal"},
+    {"EarthworksFill", "Fill", "Auffüllung"},
+    {"EarthworksCut", "Excavation", "Aushub"},
+    {"Grid", "", "Raster"},
+    {"Annotation", "", "Beschriftung"},
+    {"Proxy", "Other object", "Sonstiges Objekt"},
+    {"BridgePart", "Part of a bridge", "Brückenteil"},
+    {"Tunnel", "", "Tunnel"},
+    {"TunnelPart", "Part of a tunnel", "Tunnelteil"},
+    {"BridgeConstructiveElement", "Component", "Bauteil"},
+    {"TunnelConstructiveElement", "Component", "Bauteil"},
+    {"BridgeInstallation", "Installation", "Anbau, Einbau"},
+    {"TunnelInstallation", "Installation", "Anbau, Einbau"},
+    {"BridgeFurniture", "Furniture", "Möbel"},
+    {"TunnelFurniture", "Furniture", "Möbel"},
+    {"HollowSpace", "", "Hohlraum"},
+    {"BridgeRoom", "Room", "Raum"},
+    {"OtherConstruction", "", "Sonstiges Bauwerk"},
+    {"WaterBody", "Water", "Gewässer"},
+    {"WaterSurface", "", "Wasserfläche"},
+    {"WaterGroundSurface", "Bed", "Gewässersohle"},
+    {"LandUse", "", "Landnutzung"},
+    {"Railway", "", "Eisenbahn"},
+    {"Square", "", "Platz"},
+    {"Track", "", "Weg"},
+    {"Waterway", "", "Wasserstraße"},
+    {"TrafficArea", "", "Verkehrsfläche"},
+    {"AuxiliaryTrafficArea", "", "Verkehrsnebenfläche"},
+    {"TrafficSpace", "", "Verkehrsraum"},
+    {"AuxiliaryTrafficSpace", "", "Verkehrsnebenraum"},
+    {"CityObjectGroup", "Group", "Gruppe"},
+    {"GenericOccupiedSpace", "Other object", "Sonstiges Objekt"},
+    {"GenericUnoccupiedSpace", "Other space", "Sonstiger Raum"},
+    {"GenericLogicalSpace", "Other zone", "Sonstige Zone"},
 };
 
 bool isCapital(char c) noexcept { return c >= 'A' && c <= 'Z'; }
@@ -117,10 +234,15 @@ std::string splitName(std::string_view name) {
 
 }  // namespace
 
+std::span<const ClassTerm> classTerms() noexcept { return kClassTerms; }
+
 std::string classWord(std::string_view name, SheetLanguage language) {
     std::string own(withoutAffixes(name));
     if (!own.empty() && own[0] >= 'a' && own[0] <= 'z') own[0] = static_cast<char>(own[0] - 'a' + 'A');
-    const std::string_view word = termOf(kClassTerms, std::string_view(own), language);
+    const auto* const found = std::find_if(std::begin(kClassTerms), std::end(kClassTerms),
+                                           [&](const auto& term) { return term.name == own; });
+    if (found == std::end(kClassTerms)) return splitName(own);
+    const std::string_view word = language == SheetLanguage::German ? found->german : found->english;
     return word.empty() ? splitName(own) : std::string(word);
 }
 

@@ -20,6 +20,7 @@ TEST(ClassWords, AreThoseOfTheTradeInBothLanguages) {
 TEST(ClassWords, UnknownNamesAreSplit) {
     EXPECT_EQ(classWord("IfcFlowInstrument", SheetLanguage::English), "Flow instrument");
     EXPECT_EQ(classWord("IfcUPSDevice", SheetLanguage::German), "UPS device");
+    EXPECT_EQ(classWord("IfcUPSDevice", SheetLanguage::English), "UPS device");
     EXPECT_EQ(classWord("noise:NoiseBarrier", SheetLanguage::English), "Noise barrier");
     EXPECT_EQ(classWord("Ifc", SheetLanguage::English), "Ifc");
     EXPECT_EQ(classWord("", SheetLanguage::English), "");

@@ -199,6 +199,7 @@ describe("planes", () => {
     await visit.page.locator("svt-aim .layer:focus").waitFor();
     await visit.page.keyboard.press("Enter");
     await eventually(async () => assert.equal((await state()).sections.length, 1));
+    await visit.page.locator("#message").waitFor({ state: "detached" });
   });
 
   it("are a box around the selection", async () => {
@@ -234,6 +235,33 @@ describe("planes", () => {
     await visit.page.getByRole("button", { name: "Show or hide: Selection" }).click();
     assert.ok(await visit.page.locator("#card").isVisible(), "also without the selection");
     await visit.page.getByRole("button", { name: "Show or hide: Selection" }).click();
+  });
+
+  it("have their tool and the selection beside the picture in narrower windows, too, with and without the tree", async () => {
+    const viewport = visit.page.viewportSize();
+    const overlap = async () => {
+      const picture = await stage();
+      const boxes = await visit.page
+        .locator("#card, aside, nav")
+        .evaluateAll((parts) => parts.map((part) => ({ name: part.id || part.ariaLabel, ...part.getBoundingClientRect().toJSON() })));
+      assert.ok(picture.width > 300, `the picture is ${picture.width} wide`);
+      return boxes.filter((box) => box.right > picture.x + 1 && box.left < picture.x + picture.width - 1).map(({ name }) => name);
+    };
+    await inPage("s.selection.select(['house_hidden_beam'])");
+    for (const width of [768, 1024, 1179]) {
+      await visit.page.setViewportSize({ width, height: 768 });
+      for (const isTree of [true, false]) {
+        await eventually(async () => assert.deepEqual(await overlap(), []));
+        for (const part of ["#card", "svt-properties"]) {
+          const box = await visit.page.locator(part).boundingBox();
+          assert.ok(box.height > 150, `${part} at ${width}: ${box.height}`);
+        }
+        await visit.shot(`middle-${width}-${isTree ? "tree" : "alone"}`);
+        await visit.page.getByRole("button", { name: "Show or hide: Parts" }).click();
+      }
+    }
+    await visit.page.setViewportSize(viewport);
+    await inPage("s.selection.select([])");
   });
 });
 

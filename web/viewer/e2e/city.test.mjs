@@ -134,7 +134,31 @@ describe("A city on the page", () => {
     assert.deepEqual(await inPage("s.view.state.camera"), camera);
   });
 
-  it("has no drawings, and stays when they are asked for", async () => {
+  it("draws sections of the whole city as the command does, and stays meanwhile", async () => {
+    const server = started(await svtServe(at("town")));
+    await open(server.url);
+    await complete();
+    const [width] = await inPage("s.volume.info.size");
+    const plane = Number((width / 2).toFixed(2));
+    svt("section", at("town"), "--plane", `x<${plane}`, "-o", at("d.svg"), "-o", at("d.dxf"), "--table", at("d.csv"));
+    await inPage("s.view.set({ sections: [{ axis: 'x', at: v, flip: false, turn: 0, tilt: 0 }] })", plane);
+    await visit.tool("section");
+    assert.equal(await page.locator("#draw-sheets, #draw-beyond").count(), 0, "parts that a city cannot draw");
+    const key = await inPage("s.model.city.look.key");
+    for (const format of ["svg", "dxf", "csv"]) {
+      const { name, bytes } = await visit.saved(() => page.click(`[aria-label="Export as ${format.toUpperCase()}"]`));
+      assert.equal(name, `section-1.${format}`);
+      assert.equal(bytes.toString(), readFileSync(at(`d.${format}`), "utf8"), format);
+    }
+    assert.equal(await inPage("s.messages.progress"), null);
+    assert.equal(await inPage("s.model.city.look.key"), key);
+    await inPage("s.view.set({ sections: [{ axis: 'z', at: 400, flip: false, turn: 0, tilt: 90 }] })");
+    await page.click('[aria-label="Export as SVG"]');
+    await page.getByText("E503").first().waitFor();
+    assert.ok((await inPage("s.volume.engine.select('all')")).length > 0, "the city can still be asked");
+  });
+
+  it("refuses drawings of a volume, and stays when they are asked for", async () => {
     const server = started(await svtServe(at("town")));
     await open(server.url);
     await complete();
@@ -150,6 +174,82 @@ describe("A city on the page", () => {
     assert.match(codes[0], /^E904 .*not a city/);
     assert.match(codes[1], /^E904 .*not a city/);
     assert.ok(codes[2].length > 0, "the city can still be asked");
+  });
+
+  it("says how much of the city its lists and counts cover, and groups the buildings by an attribute", async () => {
+    const server = started(await serveCity());
+    await open(server.url);
+    await complete();
+    const cover = () => page.locator("svt-tree #cover").innerText();
+    assert.equal(await cover(), "Lists and counts cover 0 of 1,500 buildings: those near the camera.");
+    await inPage("s.model.city.find(v)", kId);
+    await page.waitForFunction((id) => document.querySelector("svt-app").session.selection.properties?.id === id, kId);
+    await complete();
+    const buildings = await inPage("s.volume.index.features.filter(({ parent, class: c }) => !parent && c === 'Building').length");
+    assert.ok(buildings > 0 && buildings < 1500);
+    assert.equal(await cover(), `Lists and counts cover ${buildings} of 1,500 buildings: those near the camera.`);
+    await page.fill("#query", "class=Building");
+    await page.press("#query", "Enter");
+    await page.locator("svt-tree #query-answer").getByText(`of 1,500 buildings`).waitFor();
+    await visit.tool("look");
+    await page.selectOption("#color-by", "class");
+    await page.locator("svt-color-legend .cover").getByText(`cover ${buildings} of 1,500`).waitFor();
+    await page.locator("#tab-classes").click();
+    await page.selectOption("#group-by", "roofType");
+    const values = await inPage("s.volume.engine.attributeValues('roofType')");
+    const counts = new Map();
+    for (const value of values.values) if (value !== null) counts.set(String(value), (counts.get(String(value)) ?? 0) + 1);
+    await visit.eventually(async () => assert.equal(await page.locator("svt-groups li").count(), counts.size));
+    const [most] = [...counts].sort((a, b) => b[1] - a[1]);
+    const row = page.locator("svt-groups li").first();
+    assert.equal(await row.locator(".count").innerText(), String(most[1]));
+    await row.locator("button.name").click();
+    assert.equal(await inPage("s.view.state.selection.length"), most[1]);
+    assert.deepEqual(visit.problems, []);
+  });
+
+  it("fetches nothing when the camera turns back", async () => {
+    const server = started(await serveCity());
+    const asked = await open(server.url);
+    await complete();
+    const camera = await inPage("s.view.state.camera");
+    const size = await inPage("s.volume.info.size");
+    await inPage("s.view.set({ camera: { ...s.view.state.camera, eye: v.eye, target: v.target } })", {
+      eye: [size[0] / 2, size[1] / 2, 60],
+      target: [size[0] / 2 + 60, size[1] / 2 + 80, 5],
+    });
+    await page.waitForFunction(() => !document.querySelector("svt-app").session.model.city.isComplete);
+    await complete();
+    const before = asked.length;
+    await inPage("s.view.set({ camera: v })", camera);
+    await page.waitForFunction(() => !document.querySelector("svt-app").session.model.city.isComplete);
+    await complete();
+    assert.deepEqual(asked.slice(before), []);
+  });
+
+  it("has a new plane in the middle of the view, and shadows of the sun", async () => {
+    const server = started(await serveCity());
+    await open(server.url);
+    await complete();
+    const target = await inPage("s.view.state.camera.target");
+    await visit.tool("section");
+    await page.click("#add-plane");
+    const [plane] = await inPage("s.view.state.sections");
+    assert.equal(plane.axis, "y");
+    const [, near] = target;
+    const { size } = await inPage("s.volume.info");
+    assert.ok(Math.abs(plane.at - near) < 0.25 * size[1], `${plane.at}, the camera looks at ${target}`);
+    await inPage("s.view.set({ sections: [] })");
+    await complete();
+    const plain = await inPage("s.volume.engine.picture(s.view.describe([320, 180], 1).scene).then((png) => png.byteLength)");
+    await visit.tool("look");
+    await page.locator("#sun").check();
+    await complete();
+    const scene = await inPage("s.view.describe([320, 180], 1).scene.sun");
+    assert.ok(scene?.time && scene?.place, JSON.stringify(scene));
+    const sunny = await inPage("s.volume.engine.picture(s.view.describe([320, 180], 1).scene).then((png) => png.byteLength)");
+    assert.notEqual(plain, sunny);
+    assert.deepEqual(visit.problems, []);
   });
 
   it("finds a building by its id with two requests of ids.bin, and tells its properties", async () => {

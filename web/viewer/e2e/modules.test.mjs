@@ -62,6 +62,13 @@ describe("modules", () => {
     await visit.page.locator("#color-scale li").first().waitFor();
     await visit.page.click("#basemap");
     await visit.page.locator("#basemap-show").waitFor();
+    // Quantities and a comparison, with a module of their own, and the model that the page has kept.
+    await visit.page.click("#quantities");
+    await visit.page.locator("svt-quantities #quantities-notes").waitFor();
+    await visit.page.click("#quantities");
+    await visit.page.click("#compare");
+    await visit.page.locator("svt-changes").waitFor();
+    await visit.page.click("#compare");
     assert.equal(await inPage("s.messages.message"), null);
   });
 

@@ -391,6 +391,28 @@ describe("messages", () => {
       await message().waitFor({ state: "hidden" });
     }
   });
+
+  it("end with the next action, unless they are about the model", async () => {
+    await open();
+    await settled();
+    const actions = ["s.selection.select([s.volume.index.features[3].id])", "s.view.tool = 'look'", "s.view.set({ look: 'paper' })"];
+    for (const action of actions) {
+      await inPage("s.messages.fail({ code: 'E503', message: 'This plane cuts nothing.' })");
+      await message().waitFor();
+      await inPage("s.view.set({ camera: { ...s.view.state.camera } })");
+      await settled();
+      assert.ok(await message().isVisible(), "a turn is no answer");
+      await inPage(`void (${action})`);
+      await message().waitFor({ state: "hidden" });
+    }
+    await inPage("s.messages.fail({ code: 'E101', message: 'Not there.' }, 'The model was not opened')");
+    await message().waitFor();
+    for (const action of actions.slice(0, 2)) await inPage(`void (${action.replace("[3]", "[4]").replace("look", "lens")})`);
+    await settled();
+    assert.ok(await message().isVisible());
+    await visit.page.getByRole("button", { name: "Dismiss" }).click();
+    await message().waitFor({ state: "hidden" });
+  });
 });
 
 describe("findings", () => {

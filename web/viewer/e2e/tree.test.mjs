@@ -66,9 +66,60 @@ describe("tree and query", () => {
     );
     await visit.page.getByRole("button", { name: "Hide: BuildingRoom" }).click();
     assert.deepEqual((await state()).hide, ["class=BuildingRoom"]);
-    await visit.page.getByRole("button", { name: "Show all" }).click();
-    assert.deepEqual((await state()).hide, []);
     await visit.page.getByRole("tab", { name: "Structure" }).click();
+    // Rooms have a switch of their own; the note and its button are for all others.
+    const showAll = visit.page.locator("svt-tree").getByRole("button", { name: "Show all" });
+    assert.equal(await showAll.count(), 0);
+    await item.locator("button.eye").click();
+    await visit.page.locator("svt-tree").getByText("1 hidden").waitFor();
+    await showAll.click();
+    assert.deepEqual((await state()).hide, ["class=BuildingRoom"]);
+    const spaces = visit.page.getByRole("checkbox", { name: /^Rooms and other spaces: \d+$/ });
+    assert.equal(await spaces.isChecked(), false);
+    await spaces.check();
+    assert.deepEqual((await state()).hide, []);
+    await item.locator("button.eye").click();
+    await showAll.click();
+    assert.deepEqual((await state()).hide, [], "visible rooms stay visible");
+    await visit.page.keyboard.press("Control+k");
+    await visit.page.keyboard.type("hide rooms and other");
+    await visit.page.keyboard.press("Enter");
+    assert.deepEqual((await state()).hide, ["class=BuildingRoom"]);
+    await spaces.check();
+  });
+
+  it("groups parts by the values of an attribute, which are selected and hidden together", async () => {
+    await visit.page.getByRole("tab", { name: "Classes" }).click();
+    const rows = svtJson("query", at("house.svt"), "loadBearing=true", "--json").map(({ id }) => id);
+    assert.ok(rows.length > 1);
+    await visit.page.selectOption("#group-by", "loadBearing");
+    const group = visit.page.locator("svt-groups li", { has: visit.page.getByRole("button", { name: "true", exact: true }) });
+    await group.getByText(String(rows.length), { exact: true }).waitFor();
+    await group.getByRole("button", { name: "true", exact: true }).click();
+    assert.deepEqual([...(await state()).selection].sort(), [...rows].sort());
+    const before = (await state()).hide;
+    await group.getByRole("button", { name: "Hide: true" }).click();
+    const hidden = await inPage("s.volume.index.features.filter((f, i) => f.count > 0 && s.view.hidden[i]).map((f) => f.id)");
+    assert.deepEqual(rows.filter((id) => !hidden.includes(id)).length, 0);
+    await group.getByRole("button", { name: "Hide: true" }).click();
+    assert.deepEqual((await state()).hide, before);
+    await inPage("s.selection.select([])");
+    await visit.page.selectOption("#group-by", "");
+    await visit.page.getByRole("tab", { name: "Structure" }).click();
+  });
+
+  it("names classes in German, and finds parts of IFC by German words", async () => {
+    const names = () => visit.page.locator("svt-groups li button.name").allInnerTexts();
+    await visit.page.click("#language");
+    await visit.page.locator("#tab-classes").click();
+    const german = await names();
+    for (const word of ["Raum", "Fenster", "Tür", "Bauteil"]) assert.ok(german.includes(word), `${word}: ${german}`);
+    assert.equal(await visit.page.locator("svt-groups li button.name", { hasText: "Raum" }).getAttribute("title"), "BuildingRoom");
+    await visit.page.locator("#tab-structure").click();
+    await visit.page.click("#language");
+    await visit.page.locator("#tab-classes").click();
+    assert.ok((await names()).includes("BuildingRoom"));
+    await visit.page.locator("#tab-structure").click();
   });
 
   it("asks queries, and shows what is wrong with them", async () => {

@@ -1,12 +1,14 @@
 /** All actions of the page, in one list: keys, context menus and the command palette take them from here. */
 
 import { movedByKey } from "./camera/view_keys";
-import { kSceneMembers } from "./generated/scene_members";
+import { lookActions } from "./look_actions";
 import { selectionActions } from "./selection_actions";
 import type { Session } from "./session";
 import type { Tool } from "./session/view";
 import { coloredBy, colorKeys } from "./state/color_keys";
 import { kViews } from "./state/member_controls";
+import { spacesOf } from "./state/spaces";
+import { areSpacesShown, showAll, showSpaces } from "./shown_spaces";
 import { t, type TextKey } from "./texts";
 import { toggleParallel } from "./camera/projection";
 import { toolText } from "./tool_texts";
@@ -73,13 +75,14 @@ export function actionsOf(host: ActionHost): Action[] {
   const { session } = host;
   const hasModel = () => session.volume.info !== null;
   const hasParts = () => hasModel() && !session.volume.isServerOnly;
-  const ofModel = (action: Action): Action => ({ isEnabled: hasModel, ...action });
+  const ofModel = (action: Action): Action => ({ ...action, isEnabled: () => hasModel() && (action.isEnabled?.() ?? true) });
   return [
     ...selectionActions(session).map((action) => ({ ...action, isEnabled: () => hasParts() && (action.isEnabled?.() ?? true) })),
     ...kTools.map(({ tool, icon, key }) =>
       ofModel({ id: `tool-${tool}`, text: () => t(tool), icon, keys: [key], run: () => host.useTool(tool) }),
     ),
     ...viewActions(session).map(ofModel),
+    ...lookActions(session).map(ofModel),
     ...pageActions(host, hasParts),
     ...toolActions(host).map(ofModel),
   ];
@@ -121,14 +124,27 @@ function viewActions(session: Session): Action[] {
       isEnabled: () => view.history.next !== null,
       run: () => view.redo(),
     },
-    ...kSceneMembers["/look"].choices.map((look): Action => ({
-      id: `look-${look}`,
-      text: () => `${t("look")}: ${t(`look_${look}`)}`,
-      icon: "look",
-      run: () => view.set({ look }),
-    })),
-    { id: "names", text: () => t("names"), icon: "look", run: () => view.set({ names: !view.state.names }) },
-    { id: "legend", text: () => t("legend"), icon: "look", run: () => (view.isLegendShown = !view.isLegendShown) },
+    {
+      id: "remove-planes",
+      text: () => toolText("removePlanes"),
+      icon: "bin",
+      isEnabled: () => view.state.sections.length > 0,
+      run: () => view.set({ sections: [] }),
+    },
+    {
+      id: "remove-points",
+      text: () => `${t("measure")}: ${t("clear")}`,
+      icon: "bin",
+      isEnabled: () => view.state.measured.length > 0,
+      run: () => view.set({ measured: [] }),
+    },
+    {
+      id: "lens-off",
+      text: () => `${t("focusEffect")}: ${t("effectNone")}`,
+      icon: "close",
+      isEnabled: () => view.state.effect !== "none",
+      run: () => view.set({ effect: "none" }),
+    },
   ];
 }
 
@@ -143,7 +159,14 @@ function pageActions(host: ActionHost, hasParts: () => boolean): Action[] {
       icon: "eye",
       keys: ["shift+h"],
       isEnabled: hasParts,
-      run: () => session.view.set({ hide: [], show: [] }),
+      run: () => showAll(session),
+    },
+    {
+      id: "spaces",
+      text: () => toolText(areSpacesShown(session) ? "hideSpaces" : "showSpaces"),
+      icon: "room",
+      isEnabled: () => hasParts() && spacesOf(volume.index).length > 0,
+      run: () => showSpaces(session, !areSpacesShown(session)),
     },
     { id: "search", text: () => t("search"), icon: "search", keys: ["/"], isEnabled: hasParts, run: () => host.search() },
     {
@@ -198,6 +221,7 @@ function toolActions(host: ActionHost): Action[] {
     press("add-plane", () => t("addPlane"), "section", "section", "#add-plane"),
     press("plane-by-face", () => `${t("section")}: ${toolText("planeByFace")}`, "section", "section", "#plane-by-face"),
     press("section-box", () => toolText("sectionBox"), "section", "section", "#section-box"),
+    press("hatches", () => `${t("section")}: ${t("hatches")}`, "section", "section", "#hatches"),
     press("sun", () => toolText("sun"), "sun", "look", "#sun"),
     press("basemap", () => toolText("basemap"), "image", "look", "#basemap"),
     press("next-view", () => toolText("nextView"), "bookmark", "share", "#next-view"),

@@ -23,7 +23,7 @@ import type { Tool } from "./session/view";
 import { kFileKinds } from "./opening";
 import { menuActions, nameOfSelection } from "./selection_actions";
 import type { Message } from "./session/messages";
-import { isSameChoice, type ViewState } from "./state/view_state";
+import { isSameButCamera, isSameChoice, type ViewState } from "./state/view_state";
 import "./tools/focus_tool";
 import "./tools/lens_tool";
 import "./tools/look_tool";
@@ -86,7 +86,7 @@ export class App extends Part implements ActionHost {
   private wasAiming = false;
   private pictureTools: PictureTools | null = null;
   /** The last message, and the view when it came. */
-  private seenMessage: { message: Message | null; state: ViewState } | null = null;
+  private seenMessage: { message: Message | null; state: ViewState; aim: unknown; tool: unknown } | null = null;
 
   static override styles = [controls, appStyles];
 
@@ -247,26 +247,28 @@ export class App extends Part implements ActionHost {
     else this.isSelectionShown = isOn;
   }
 
-  /** The tree, the picture, and a column at the right with the tool and the selection. */
+  /**
+   * The tree, the picture, and a column at the right with the tool and the selection. Without room for three columns, the
+   * tool and the selection are below the tree.
+   */
   private wide() {
     const { view, selection, volume } = this.session;
-    const properties = html`<svt-properties .session=${this.session}></svt-properties>`;
-    const hasColumn = !this.isSmall && (this.isSelectionShown || view.tool !== null);
     const hasTree = this.isTreeShown && !volume.isServerOnly;
-    // Without room for a third column, the tool or the selection is below the parts.
-    const isBelow = this.isSmall && hasTree && (view.tool !== null || (this.isSelectionShown && !selection.isEmpty));
-    const card = view.tool ? this.card(view.tool) : nothing;
-    const picture = this.middle(hasColumn || isBelow);
-    const column = html`<div slot="end" class="side column">${card}${this.isSelectionShown ? html`<aside aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>`;
-    const isFloating = !hasColumn && this.isSelectionShown && !selection.isEmpty && (!isBelow || view.tool !== null);
-    const middle = hasColumn
-      ? html`<wa-split-panel position-in-pixels=${this.isHuge ? 420 : 320} primary="end"><div slot="start" class="middle">${picture}</div>${column}</wa-split-panel>`
-      : html`<div class="middle">${picture}${isFloating ? html`<aside class="floating" aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>`;
+    const hasSelection = this.isSelectionShown && !(this.isSmall && selection.isEmpty);
+    const isShared = this.isSmall && hasTree;
+    const others =
+      view.tool || hasSelection
+        ? html`${view.tool ? this.card(view.tool) : nothing}
+          ${hasSelection ? html`<aside aria-label=${t("panelProperties")}><svt-properties .session=${this.session}></svt-properties></aside>` : nothing}`
+        : null;
+    const picture = this.middle();
+    const middle =
+      others && !isShared
+        ? html`<wa-split-panel position-in-pixels=${this.isHuge ? 420 : 320} primary="end"><div slot="start" class="middle">${picture}</div><div slot="end" class="side column">${others}</div></wa-split-panel>`
+        : picture;
     if (!hasTree) return middle;
-    const tree = html`<svt-tree .session=${this.session}></svt-tree>`;
     return html`<wa-split-panel position-in-pixels=${this.isHuge ? 420 : this.isSmall && !view.tool ? 260 : 310} primary="start">
-      <div slot="start" class="side ${isBelow ? "shared" : ""}"><nav aria-label=${t("panelTree")}>${tree}</nav>
-        ${isBelow ? (view.tool ? card : html`<aside aria-label=${t("panelProperties")}>${properties}</aside>`) : nothing}</div>
+      <div slot="start" class="side column"><nav aria-label=${t("panelTree")}><svt-tree .session=${this.session}></svt-tree></nav>${isShared ? others : nothing}</div>
       <div slot="end" class="middle">${middle}</div></wa-split-panel>`;
   }
 
@@ -284,8 +286,8 @@ export class App extends Part implements ActionHost {
     return nothing;
   }
 
-  /** @param isDocked  the tool is in a column beside the picture */
-  private middle(isDocked = false) {
+  /** The picture with its overlays; in narrow pages, also the tool. */
+  private middle() {
     const { session } = this;
     const { view, picture } = session;
     this.pictureTools ??= measuringOf(session);
@@ -311,7 +313,7 @@ export class App extends Part implements ActionHost {
           ${view.isLegendShown ? html`<svt-legend .session=${session}></svt-legend>` : nothing}
         </div>
         ${this.status()}
-        ${view.tool && !isDocked ? this.card(view.tool) : nothing}
+        ${view.tool && this.isNarrow ? this.card(view.tool) : nothing}
         ${this.dock()}`
           : nothing
       }
@@ -459,12 +461,21 @@ export class App extends Part implements ActionHost {
       <button class="bare" aria-label=${t("dismiss")} @click=${() => this.dismiss()}>${icon("close", 18)}</button></div>`;
   }
 
-  /** Removes the message about a choice once the user has made another one. */
+  /** Removes the message once the user has made another choice, or has done something else. */
   private endMessage(): void {
     const { messages, view } = this.session;
     const { message } = messages;
-    if (this.seenMessage?.message !== message) this.seenMessage = { message, state: view.state };
-    else if (message?.isOfChoice && !isSameChoice(view.state, this.seenMessage.state)) queueMicrotask(() => this.dismiss());
+    const seen = this.seenMessage;
+    if (!message || seen?.message !== message)
+      return void (this.seenMessage = { message, state: view.state, aim: view.aim, tool: view.tool });
+    const isOther =
+      message.until === "choice"
+        ? !isSameChoice(view.state, seen.state)
+        : message.until === "action" && !(isSameButCamera(view.state, seen.state) && view.aim === seen.aim && view.tool === seen.tool);
+    if (isOther)
+      queueMicrotask(() => {
+        if (messages.message === message) this.dismiss();
+      });
   }
 
   private dismiss(): void {

@@ -26,18 +26,14 @@ export const appStyles = css`
   wa-split-panel::part(divider) { background: var(--line); }
   wa-split-panel::part(divider):focus-visible { outline: 2px solid var(--focus); background: var(--focus); }
   .side { height: 100%; min-width: 0; overflow: hidden; background: var(--panel); }
-  .side nav { height: 100%; min-height: 0; }
-  .side.shared { display: grid; grid-template: minmax(0, 1fr) minmax(0, 1fr) / minmax(0, 1fr); }
-  .side.shared aside { min-height: 0; border-top: 1px solid var(--line); }
   .column { display: flex; flex-direction: column; }
-  .column aside { flex: 1 1 0; min-height: 0; }
+  .column nav, .column aside { flex: 1 1 0; min-height: 0; }
+  .column > * + * { border-top: 1px solid var(--line-strong); }
   .middle { position: relative; height: 100%; min-width: 0; overflow: hidden; }
   /* The tools are below the four views. */
   svt-section-panes { position: absolute; inset: 0 0 80px; }
   .four svt-picture { position: absolute; left: 0; top: 0; width: 50%; height: calc(50% - 40px); }
   .four .status { right: calc(50% + 12px); }
-  .floating { position: absolute; right: 10px; top: 10px; width: 290px; max-height: calc(100% - 96px); overflow: auto; border: 1px solid var(--line); border-radius: 12px; background: var(--panel); box-shadow: var(--shadow); z-index: 3; }
-  .floating svt-properties { height: auto; }
   .sheet { position: absolute; left: 0; right: 0; bottom: 0; height: 62%; background: var(--panel); border-top: 1px solid var(--line); border-radius: 14px 14px 0 0; box-shadow: var(--shadow); z-index: 5; overflow: hidden; display: grid; grid-template: auto 1fr / minmax(0, 1fr); }
   .sheet > .bar { display: flex; justify-content: space-between; align-items: center; padding: 4px 6px 4px 14px; border-bottom: 1px solid var(--line); }
   .sheet > :last-child { min-height: 0; }
@@ -48,11 +44,10 @@ export const appStyles = css`
   .dock button:hover { background: var(--hover); }
   .dock button[aria-expanded="true"] { background: var(--accent-soft); color: var(--accent-text); }
   .dock button.used::after { content: ""; position: absolute; top: 4px; right: 8px; width: 7px; height: 7px; border-radius: 50%; background: var(--accent); }
-  .card { position: absolute; left: 114px; top: 10px; width: min(330px, calc(100% - 124px)); max-height: calc(100% - 96px); overflow: auto; padding: 12px 14px 14px; border: 1px solid var(--line); border-radius: 14px; background: var(--panel); box-shadow: var(--shadow); z-index: 4; font-size: 13px; }
-  .side .card { position: static; width: auto; max-height: none; min-height: 0; border: 0; border-radius: 0; box-shadow: none; }
+  .card { min-height: 0; overflow: auto; padding: 12px 14px 14px; background: var(--panel); font-size: 13px; }
   .column .card { flex: 0 1 auto; max-height: 66%; }
-  .column .card:last-child { max-height: none; }
-  .column .card + aside, .shared .card { border-top: 1px solid var(--line-strong); }
+  .column .card:only-child { max-height: none; }
+  .column nav + .card { max-height: 50%; }
   .card > .bar { display: flex; justify-content: space-between; align-items: center; margin-bottom: 6px; }
   .corner { position: absolute; right: 10px; top: 46px; display: grid; gap: 8px; z-index: 2; max-width: 46%; justify-items: end; }
   .status { position: absolute; right: 12px; top: 8px; font-size: 11px; color: var(--stage-quiet); z-index: 1; font-variant-numeric: tabular-nums; pointer-events: none; text-align: right; }
@@ -95,10 +90,10 @@ export const appStyles = css`
     svt-aim, .preview, svt-section-panes, svt-walk-pad { grid-area: 1 / 1 / 2 / 2; }
     svt-section-panes { inset: 0; }
     .four svt-picture { position: relative; height: 50%; }
-    .dock, .card, .sheet { position: static; transform: none; max-width: none; width: auto; border-radius: 0; border-width: 1px 0 0; box-shadow: none; }
+    .dock, .sheet { position: static; transform: none; max-width: none; width: auto; border-radius: 0; border-width: 1px 0 0; box-shadow: none; }
     .dock { order: 2; justify-content: space-between; }
     .dock button { min-width: 0; padding: 5px 2px; flex: 1; font-size: 10.5px; overflow: hidden; }
-    .card { order: 1; max-height: 42dvh; }
+    .card { order: 1; max-height: 42dvh; border-top: 1px solid var(--line); }
     .sheet { height: 50dvh; position: relative; grid-template-rows: minmax(0, 1fr); --sheet-close: 48px; }
     .sheet > .bar { position: absolute; right: 0; top: 0; padding: 10px 6px; border: 0; z-index: 1; }
     .sheet h2 { position: absolute; clip-path: inset(50%); }

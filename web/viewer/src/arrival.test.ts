@@ -42,20 +42,20 @@ test("a download counts its bytes", async () => {
   for (let n = 0; n < 200 && download.done < 4; ++n) await new Promise((done) => setTimeout(done, 10));
   expect([download.done, download.all]).toEqual([4, 8]);
   release();
-  expect(new TextDecoder().decode(await download.bytes)).toBe("abcdefgh");
+  expect(await (await download.blob).text()).toBe("abcdefgh");
   expect([download.done, download.all]).toEqual([8, 8]);
 });
 
 test("a download names a missing file, a missing server, and ends when it is cancelled", async () => {
   const missing = await serverOf((response) => void response.writeHead(404).end());
-  await expect(new Download(missing, 8).bytes).rejects.toMatchObject({ message: expect.stringContaining("404") });
+  await expect(new Download(missing, 8).blob).rejects.toMatchObject({ message: expect.stringContaining("404") });
   close();
   const hanging = await serverOf((response) => void response.writeHead(200).write("ab"));
   const download = new Download(hanging, 8);
   for (let n = 0; n < 200 && download.done < 2; ++n) await new Promise((done) => setTimeout(done, 10));
   download.cancel();
-  await expect(download.bytes).rejects.toBeDefined();
-  await expect(new Download("http://127.0.0.1:1/", 8).bytes).rejects.toMatchObject({ message: expect.stringContaining("127.0.0.1:1") });
+  await expect(download.blob).rejects.toBeDefined();
+  await expect(new Download("http://127.0.0.1:1/", 8).blob).rejects.toMatchObject({ message: expect.stringContaining("127.0.0.1:1") });
 });
 
 test("a compressed connection does not announce the number of bytes", () => {

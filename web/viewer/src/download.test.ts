@@ -15,7 +15,7 @@ it("reports all bytes so far, also while no further ones come", async () => {
   const download = new Download(`http://127.0.0.1:${(server.address() as AddressInfo).port}/house.svt`, 0);
   await expect.poll(() => [download.done, download.all], { timeout: 20_000 }).toEqual([50, 100]);
   finish();
-  expect((await download.bytes).byteLength).toBe(100);
+  expect((await download.blob).size).toBe(100);
   expect(download.done).toBe(100);
   await new Promise((done) => server.close(done));
 });

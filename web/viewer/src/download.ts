@@ -11,8 +11,8 @@ export class Download extends Observable {
   done = 0;
   /** All bytes; 0: unknown. */
   all: number;
-  /** The whole file. Rejects with a message for the user. */
-  readonly bytes: Promise<ArrayBuffer>;
+  /** The whole file, which the browser may keep on disk. Rejects with a message for the user. */
+  readonly blob: Promise<Blob>;
   private readonly abort = new AbortController();
 
   /** @param all  the size of the file, if it is known; 0: as the server announces it */
@@ -22,25 +22,25 @@ export class Download extends Observable {
   ) {
     super();
     this.all = all || 0;
-    this.bytes = this.fetched();
-    this.bytes.catch(() => undefined);
+    this.blob = this.fetched();
+    this.blob.catch(() => undefined);
   }
 
   cancel(): void {
     this.abort.abort();
   }
 
-  private async fetched(): Promise<ArrayBuffer> {
+  private async fetched(): Promise<Blob> {
     const { file } = this;
     const response = await fetch(file, { signal: this.abort.signal }).catch(() => {
       throw { message: t("notReached", { name: file }) };
     });
     if (!response.ok) throw { message: t("notLoaded", { name: file, status: response.status }) };
     this.all ||= lengthOf(response.headers);
-    return response.body ? this.received(response.body) : response.arrayBuffer();
+    return response.body ? this.received(response.body) : response.blob();
   }
 
-  private async received(body: ReadableStream<Uint8Array>): Promise<ArrayBuffer> {
+  private async received(body: ReadableStream<Uint8Array>): Promise<Blob> {
     const reader = body.getReader();
     const parts: Uint8Array<ArrayBuffer>[] = [];
     let size = 0,
@@ -62,7 +62,7 @@ export class Download extends Observable {
       clearTimeout(timer);
     }
     this.done = this.all = size;
-    return new Blob(parts).arrayBuffer();
+    return new Blob(parts);
   }
 }
 

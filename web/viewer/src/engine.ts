@@ -351,6 +351,18 @@ export interface Engine extends LibraryCalls {
   searchCity(files: CityBytes, words: string, most: number): Promise<CityFound>;
 
   /**
+   * The section through the open city as drawn by `svt section CITY`. Reads the tiles of detail 0 that the plane meets.
+   * @param most  limit of their bytes; rejects if they have more
+   */
+  drawCity(
+    files: CityBytes,
+    plane: string,
+    format: DrawingFormat,
+    most: number,
+    onProgress: (step: string, done: number) => void,
+  ): Promise<ArrayBuffer>;
+
+  /**
    * Draws into the engine's canvas at `width` x `height` pixels (the canvas is scaled by CSS).
    * Only the newest request is queued: a superseded one resolves to null.
    */

@@ -68,6 +68,7 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
     followCity: refuse,
     findInCity: refuse,
     searchCity: refuse,
+    drawCity: refuse,
     compose: (scene) => Promise.resolve(scene),
     pick: () => Promise.resolve(null),
     along: () => Promise.resolve([]),

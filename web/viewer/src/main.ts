@@ -111,10 +111,10 @@ async function start(): Promise<void> {
   const state = file === null && newState === null ? await linked : null;
   if (list.chosen) await openModel(session, list.chosen.name, state, list.bytes, list.files);
   if (newState !== null) app.compare([], { old: wanted.get("old") ?? "", new: newState, state: await linked });
-  else if (list.note) session.messages.tell(list.note);
+  else if (list.note) session.messages.tell(list.note, "closed");
   // Opening a model clears messages.
   if (isDamaged) session.messages.fail({ message: t("badLink") });
-  if (file !== null) session.messages.tell(t("awaitsFile", { name: file }));
+  if (file !== null) session.messages.tell(t("awaitsFile", { name: file }), "closed");
 }
 
 async function linkedState(): Promise<ViewState | null> {

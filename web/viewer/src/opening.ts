@@ -60,6 +60,9 @@ export async function openModel(
   if (!listed) return false;
   const title = listed.title || listed.name;
   const fileName = listed.file.split("/").pop()!.split("?")[0]!;
+  // Kept, so that the model can be read again without a connection.
+  let kept: Blob;
+  const again = async () => [{ name: fileName, bytes: await kept.arrayBuffer() }];
   const fetched = async (signal: AbortSignal) => {
     const download = coming ?? new Download(listed.file, listed.bytes);
     signal.addEventListener("abort", () => download.cancel());
@@ -67,10 +70,9 @@ export async function openModel(
       const { done, all } = download;
       if (done > 0 && all > kSlowBytes) untracked(() => (messages.progress = progressOf(title, done, all)));
     });
-    const bytes = await download.bytes.finally(unwatch);
-    return [{ name: fileName, bytes }];
+    kept = await download.blob.finally(unwatch);
+    return again();
   };
-  const again = async () => [{ name: fileName, bytes: await (await fetch(listed.file)).arrayBuffer() }];
   const isOpen =
     listed.city && !volume.isServerOnly
       ? await model.openCity(title, files ?? filesOf(listed), state)

@@ -3,6 +3,8 @@
 import type { Action } from "./actions";
 import { nameOf, storeyOf } from "./panels/feature_path";
 import type { Session } from "./session";
+import { hasHiddenParts, showAll } from "./shown_spaces";
+import { classText } from "./state/class_words";
 import { withMembers, type FeatureIndex } from "./state/feature_index";
 import { ofClass, ofSubtree, quoted } from "./state/queries";
 import { t } from "./texts";
@@ -36,7 +38,7 @@ export function selectionActions(session: Session): Action[] {
     { id: "cutaway", text: () => t("cutawayTo"), icon: "target", isEnabled: () => isAny() && !volume.isCity, run: effect("cutaway") },
     {
       id: "same-type",
-      text: () => t("sameType", { type: typeAt(volume.index, first()) }),
+      text: () => t("sameType", { type: classText(typeAt(volume.index, first())) }),
       icon: "part",
       isEnabled: () => first() >= 0,
       run: () => selectSameType(session, first()),
@@ -65,8 +67,8 @@ export function menuActions(session: Session, at: [number, number] | null): Acti
   const { view, selection } = session;
   const actions = selectionActions(session).filter(({ id, isEnabled }) => kInMenu.has(id) && (isEnabled?.() ?? true));
   if (at) actions.push({ id: "behind", text: () => t("keyAlong"), icon: "lens", run: () => void selection.listAlong(...at) });
-  if (view.state.hide.length || view.state.show.length)
-    actions.push({ id: "show-all", text: () => t("showAll"), icon: "eye", run: () => view.set({ hide: [], show: [] }) });
+  if (view.state.show.length || hasHiddenParts(session))
+    actions.push({ id: "show-all", text: () => t("showAll"), icon: "eye", run: () => showAll(session) });
   return actions;
 }
 

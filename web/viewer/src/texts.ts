@@ -206,6 +206,7 @@ const kTexts = {
   stage_voxelize: ["Voxels", "Voxel"],
   stage_patterns: ["Patterns", "Muster"],
   stage_pack: ["Packing", "Wird verpackt"],
+  stage_tiles: ["Tiles", "Kacheln"],
   ownersNeedModel: [
     "{name} is a table of owners: open the model first, or drop both together.",
     "{name} ist eine Tabelle von Eigentümern: erst das Modell öffnen, oder beide zusammen ablegen.",

@@ -3,13 +3,13 @@
  * sees, and replaces the first worker. So pictures never wait for tiles.
  */
 
-import type { CityFound, CityLook, Engine, VolumeInfo } from "../engine";
+import type { CityFound, CityLook, DrawingFormat, Engine, VolumeInfo } from "../engine";
 import { batch, effect, Observable, untracked } from "../observable";
 import type { Selection } from "../session/selection";
 import type { ShownPicture } from "../session/shown_picture";
 import type { ViewParts } from "../session/view_part";
 import type { Camera } from "../state/view_state";
-import { t } from "../texts";
+import { stageText, t } from "../texts";
 import type { Message } from "../session/messages";
 import type { CityFiles } from "./city_files";
 import { roundMs } from "./retry";
@@ -26,6 +26,8 @@ const kPhone = 128e6,
   kDesk = 256e6;
 /** Share of the limit for the decoded tiles of one worker; the rest is for the other worker and for pictures. */
 const kTileShare = 0.35;
+/** Share of the limit for the bytes of the tiles in a section, which are decoded one after the other: 30,000 buildings. */
+const kSectionShare = 0.125;
 
 /**
  * waiting: for the first picture.
@@ -95,7 +97,7 @@ export class CityStream extends Observable {
 
   /** Opens the city with its coarsest tile. */
   async open(): Promise<VolumeInfo> {
-    const look = await this.engine.openCity(this.files, { pixels: 1, memory: memoryOfTiles(), shown: "" });
+    const look = await this.engine.openCity(this.files, { pixels: 1, memory: kTileShare * memoryOfCity(), shown: "" });
     this.take(look);
     return look.info!;
   }
@@ -141,6 +143,14 @@ export class CityStream extends Observable {
     } catch (error) {
       messages.fail(error);
     }
+  }
+
+  /** The section of the whole city on a plane, from the tiles that the plane meets. */
+  draw(plane: string, format: DrawingFormat): Promise<ArrayBuffer> {
+    const { messages } = this.host;
+    const tell = (step: string, share: number) => (messages.progress = { text: stageText(step), share });
+    tell("tiles", -1);
+    return this.engine.drawCity(this.files, plane, format, kSectionShare * memoryOfCity(), tell).finally(() => (messages.progress = null));
   }
 
   /** Fetches the missing tiles again, on request of the user. */
@@ -239,7 +249,7 @@ export class CityStream extends Observable {
     const isMoving = pixels > kStillPixels;
     const shown = this.isAgain ? "" : (this.look?.key ?? "");
     this.isAgain = false;
-    const options = { pixels, memory: memoryOfTiles(), shown, isMoving };
+    const options = { pixels, memory: kTileShare * memoryOfCity(), shown, isMoving };
     const look = await this.engine.followCity(this.files, scene, view.size, options);
     if (this.isEnded) return;
     if (look.info) {
@@ -274,8 +284,8 @@ export class CityStream extends Observable {
   }
 }
 
-function memoryOfTiles(): number {
+function memoryOfCity(): number {
   const device = (navigator as { deviceMemory?: number }).deviceMemory ?? 8;
   const isPhone = device < 4 || matchMedia("(max-width: 759px) and (pointer: coarse)").matches;
-  return (isPhone ? kPhone : kDesk) * kTileShare;
+  return isPhone ? kPhone : kDesk;
 }

@@ -93,7 +93,7 @@ export class Comparison extends Observable {
     const found = this.session.volume.models.find((model) => model.name === name && !model.city);
     if (!found) return null;
     const fileName = found.file.split("/").pop()!.split("?")[0]!;
-    const files = async () => [{ name: fileName, bytes: await new Download(found.file, found.bytes).bytes }];
+    const files = async () => [{ name: fileName, bytes: await (await new Download(found.file, found.bytes).blob).arrayBuffer() }];
     return { name, isListed: true, files };
   }
 

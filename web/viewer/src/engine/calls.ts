@@ -30,7 +30,7 @@ const kMediaTypeAt = 30;
 export function needsWhole(name: string, args: readonly unknown[], hasMeshes: boolean): boolean {
   if (name === "open") return !(args[0] as readonly FileBytes[]).every(isVolume);
   if (name === "draw" || name === "picture" || name === "labels") return hasMeshes && (args[0] as Scene).surfaces !== "voxels";
-  return name === "drawing" || name === "sheets";
+  return name === "drawing" || name === "sheets" || name === "cityDrawing";
 }
 
 function isVolume({ bytes }: FileBytes): boolean {

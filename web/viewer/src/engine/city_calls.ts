@@ -3,21 +3,29 @@
 import type { CityBytes } from "../engine";
 import type { Calls, CityNeeds, GivenRow } from "./protocol";
 
+type OnProgress = (step: string, done: number) => void;
+
 interface Asked {
-  ask<N extends keyof Calls>(name: N, args: Calls[N]["args"], transfer?: Transferable[]): Promise<Calls[N]["result"]>;
+  ask<N extends keyof Calls>(
+    name: N,
+    args: Calls[N]["args"],
+    transfer?: Transferable[],
+    onProgress?: OnProgress,
+  ): Promise<Calls[N]["result"]>;
 }
 
 /** A call reads page after page of an index, which has few levels; then it requests tiles. */
 const kMostRounds = 60;
 
-export async function withBytes<N extends "cityLook" | "cityFind" | "citySearch">(
+export async function withBytes<N extends "cityLook" | "cityFind" | "citySearch" | "cityDrawing">(
   worker: Asked,
   files: CityBytes,
   name: N,
   argsOf: (round: number) => Calls[N]["args"],
+  onProgress?: OnProgress,
 ): Promise<Exclude<Calls[N]["result"], CityNeeds>> {
   for (let round = 0; round < kMostRounds; ++round) {
-    const reply = await worker.ask(name, argsOf(round));
+    const reply = await worker.ask(name, argsOf(round), [], onProgress);
     if (!("needs" in reply)) return reply as Exclude<Calls[N]["result"], CityNeeds>;
     const given = await files.get(reply.needs);
     const all = new Uint8Array(given.reduce((sum, { bytes }) => sum + bytes.length, 0));

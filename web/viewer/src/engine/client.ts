@@ -5,6 +5,7 @@ import type {
   CityFound,
   CityLook,
   CityOptions,
+  DrawingFormat,
   Engine,
   EngineError,
   EngineKind,
@@ -121,6 +122,8 @@ class WorkerEngine {
   private second: Connection | null = null;
   /** Second worker on the same city; prepares the next visible tiles. */
   private spare: Connection | null = null;
+  /** Workers that draw sections of a city. */
+  private readonly drawings = new Set<Connection>();
   private isDrawing = false;
   private nextDraw: WaitingDraw | null = null;
   private readonly screen: ImageBitmapRenderingContext | null;
@@ -149,6 +152,7 @@ class WorkerEngine {
         if (made === this.main) this.restart(error);
         else if (made === this.second) this.endSecond(error);
         else if (made === this.spare) this.endSpare(error);
+        else made.close(error);
       },
       onReceived,
     );
@@ -219,6 +223,18 @@ class WorkerEngine {
     return withBytes(this.main, files, "citySearch", () => [words, most]);
   }
 
+  async drawCity(files: CityBytes, plane: string, format: DrawingFormat, most: number, onProgress: OnProgress): Promise<ArrayBuffer> {
+    const own = this.connect();
+    this.drawings.add(own);
+    try {
+      const { text } = await withBytes(own, files, "cityDrawing", () => [plane, format, most], onProgress);
+      return new TextEncoder().encode(text).buffer;
+    } finally {
+      this.drawings.delete(own);
+      own.close(kGivenUp);
+    }
+  }
+
   private async startSpare(): Promise<Connection> {
     const spare = (this.spare = this.connect());
     await spare.ask("start", ["cpu"]);
@@ -263,6 +279,7 @@ class WorkerEngine {
     this.nextDraw = null;
     this.cancelRefining();
     this.endSpare();
+    for (const own of this.drawings) own.close(kGivenUp);
     this.main.close(kGivenUp);
   }
 

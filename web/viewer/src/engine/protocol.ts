@@ -3,6 +3,7 @@ import type {
   CityFound,
   CityLook,
   CityOptions,
+  DrawingFormat,
   EngineError,
   EngineKind,
   FileBytes,
@@ -25,6 +26,8 @@ interface OwnCalls {
   cityLook(isNew: boolean, scene: Scene | null, width: number, height: number, options: CityOptions): CityLook | CityNeeds;
   cityFind(id: string, camera: SceneCamera, aspect: number): SceneCamera | CityNeeds;
   citySearch(words: string, most: number): CityFound | CityNeeds;
+  /** In a worker of its own, because the whole module forgets the open part of a city. */
+  cityDrawing(plane: string, format: DrawingFormat, most: number): { text: string } | CityNeeds;
   cityGive(given: GivenRow[], bytes: ArrayBuffer): null;
   cityDrop(): null;
 }

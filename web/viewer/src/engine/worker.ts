@@ -48,11 +48,12 @@ async function prepare(drawer: Drawer): Promise<boolean> {
 }
 
 /** The whole module with the open volume in place of the module that draws only. */
-async function continueInWhole(): Promise<void> {
-  if (!opened) throw { code: "E904", message: "drawings and sheets need an open volume, not a city" } satisfies EngineError;
+async function continueInWhole(name: string): Promise<void> {
+  const isOfCity = name === "cityDrawing";
+  if (!opened && !isOfCity) throw { code: "E904", message: "drawings and sheets need an open volume, not a city" } satisfies EngineError;
   const svt = await loadWhole(onProgress);
-  openFiles(svt, opened.files, opened.options);
-  if (opened.owners) makeCall(svt, "owners", opened.owners);
+  if (opened) openFiles(svt, opened.files, opened.options);
+  if (opened?.owners) makeCall(svt, "owners", opened.owners);
   await adopt(svt);
 }
 
@@ -71,7 +72,7 @@ async function answer(request: Request): Promise<void> {
   if (stopped) throw stopped;
   current = id;
   const isTooMuch = !isWhole && needsWhole(name, args, opened?.hasMeshes ?? false);
-  if (isTooMuch && name !== "open") await continueInWhole();
+  if (isTooMuch && name !== "open") await continueInWhole(name);
   const svt = await loaded;
   switch (name) {
     case "start":

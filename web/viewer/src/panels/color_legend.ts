@@ -1,6 +1,7 @@
 /** The meaning of the colours in the picture. Its text has the size of the page, whatever the resolution of the picture. */
 
 import { css, html, nothing } from "lit";
+import { coverText } from "../city/cover";
 import type { ColorScale } from "../engine";
 import { number, t } from "../texts";
 import { Part } from "../ui/part";
@@ -16,6 +17,7 @@ export class ColorLegend extends Part {
     ul { list-style: none; margin: 0; padding: 0; display: grid; gap: 4px; }
     li { display: grid; grid-template-columns: 14px 1fr; gap: 8px; align-items: center; overflow-wrap: anywhere; }
     .swatch { width: 14px; height: 14px; border-radius: 3px; border: 1px solid #0003; }
+    .cover { margin: 6px 0 0; max-width: 24em; color: var(--quiet); }
     li.ramp { display: block; font-variant-numeric: tabular-nums; }
     .bar { height: 12px; min-width: 110px; margin-bottom: 3px; border-radius: 3px; border: 1px solid #0003; }
   `;
@@ -23,10 +25,11 @@ export class ColorLegend extends Part {
   override render() {
     const { scale } = this.session.picture;
     if (!scale) return nothing;
+    const cover = coverText(this.session);
     const missing = scale.missing ? this.row(t("legendMissing", { n: scale.missing }), scale.missingColor) : nothing;
     return html`<strong id="color-title">${scale.title}</strong>
       <ul id="color-scale" aria-label="${t("legend")}: ${scale.title}">
-        ${scale.isRamp ? this.ramp(scale) : scale.entries.map(({ text, count, color }) => this.row(`${text}: ${count}`, color))}${missing}</ul>`;
+        ${scale.isRamp ? this.ramp(scale) : scale.entries.map(({ text, count, color }) => this.row(`${text}: ${count}`, color))}${missing}</ul>${cover ? html`<p class="cover">${cover}</p>` : nothing}`;
   }
 
   private ramp({ low, high, ramp = [] }: ColorScale) {

@@ -1,6 +1,7 @@
 /** The place of a feature in its building: building, storey, flat, room. A feature may lie in a storey or flat as a member only. */
 
 import type { Feature } from "../engine";
+import { classText } from "../state/class_words";
 import { ancestors, labelOf, type FeatureIndex } from "../state/feature_index";
 import type { IconName } from "../ui/icons";
 
@@ -78,5 +79,5 @@ export function nameOf(index: FeatureIndex, feature: { id: string; name: string;
   if (feature.name || i === undefined) return labelOf(feature);
   const { type = "" } = index.features[i]!;
   const named = ancestors(index, i).find((at) => index.features[at]!.name);
-  return named === undefined ? labelOf(feature) : `${type || feature.class} · ${index.features[named]!.name}`;
+  return named === undefined ? labelOf(feature) : `${classText(type || feature.class)} · ${index.features[named]!.name}`;
 }

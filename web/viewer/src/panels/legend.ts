@@ -1,6 +1,7 @@
 /** The classes in the picture, with their colours. */
 
 import { css, html } from "lit";
+import { classText } from "../state/class_words";
 import { ofClass } from "../state/queries";
 import { t } from "../texts";
 import { Part } from "../ui/part";
@@ -27,7 +28,7 @@ export class Legend extends Part {
     });
     return html`<ul aria-label=${t("legend")}>${rows.map(
       ({ name, colors }) =>
-        html`<li><span class="swatches">${colors.map((color) => html`<span class="swatch" data-color=${color}></span>`)}</span>${name}</li>`,
+        html`<li><span class="swatches">${colors.map((color) => html`<span class="swatch" data-color=${color}></span>`)}</span><span title=${name}>${classText(name)}</span></li>`,
     )}</ul>`;
   }
 

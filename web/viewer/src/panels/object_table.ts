@@ -1,6 +1,7 @@
 /** The table of objects with their attributes. Only visible rows are in the page, so that 100,000 objects cost no more than 30. */
 
 import { css, html, nothing, unsafeCSS } from "lit";
+import { coverText } from "../city/cover";
 import { language, number, t } from "../texts";
 import { lateText } from "../late_texts";
 import { save } from "../ui/files";
@@ -187,7 +188,7 @@ export class ObjectTable extends Part {
       <select id="table-column" aria-label=${lateText("tableColumn")} @change=${(e: Event) => this.addColumn(e.target as HTMLSelectElement)}>
         <option value="" selected>${lateText("tableColumn")}</option>
         ${(info?.attributes ?? []).filter((name) => !used.has(name)).map((name) => html`<option value=${name}>${name}</option>`)}</select>
-      <span id="table-count" class="small quiet" role="status">${lateText("tableCount", { n: number(this.rows.length, 0), all: number(index.features.length, 0) })}</span>
+      <span id="table-count" class="small quiet" role="status">${lateText("tableCount", { n: number(this.rows.length, 0), all: number(index.features.length, 0) })} ${coverText(this.session) ?? ""}</span>
       <button id="table-select" ?disabled=${!this.rows.length} @click=${() => this.selectAll()}>${lateText("tableSelect")}</button>
       <button id="table-save" ?disabled=${!this.rows.length} @click=${() => save(csvOf(this.columns, this.rows), "objects.csv")}>${lateText("tableSave")}</button>
       <button class="bare" id="table-close" aria-label=${t("close")} @click=${() => this.close()}>${icon("close", 18)}</button>

@@ -3,6 +3,7 @@
 import { css, html, nothing } from "lit";
 import type { FeatureProperties } from "../engine";
 import { isGroupOfParts, labelOf, type FeatureIndex } from "../state/feature_index";
+import { classText } from "../state/class_words";
 import { ofId, ofSubtree } from "../state/queries";
 import { number, t } from "../texts";
 import { icon } from "../ui/icons";
@@ -10,6 +11,11 @@ import { controls, Part } from "../ui/part";
 import { comparison } from "./comparison";
 import { kindOf, nameOf, pathTo } from "./feature_path";
 import "./style_editor";
+
+/** The word of the page's language, the type and the class; each name once. */
+function kindText({ type = "", class: name }: { type?: string; class: string }): string {
+  return [...new Set([classText(type || name), type || name, name])].join(" · ");
+}
 
 export class PropertiesPanel extends Part {
   static override styles = [
@@ -93,7 +99,7 @@ export class PropertiesPanel extends Part {
     const isGroup = isGroupOfParts(index, i);
     return html`
       ${this.path(i)}
-      <div class="head"><div><h2>${labelOf(feature)}</h2><div class="quiet">${feature.type && feature.type !== feature.class ? `${feature.type} · ` : ""}${feature.class}</div><div class="id">${feature.id}</div></div>${this.close()}</div>
+      <div class="head"><div><h2>${labelOf(feature)}</h2><div class="quiet">${kindText(feature)}</div><div class="id">${feature.id}</div></div>${this.close()}</div>
       ${this.actions()}
       ${
         feature.count > 0 || isGroup
@@ -156,7 +162,7 @@ export class PropertiesPanel extends Part {
       <ul>${view.now.selection.slice(0, 200).map((id) => {
         const feature = index.features[index.byId.get(id) ?? -1];
         return feature
-          ? html`<li><button @click=${() => this.session.selection.select([id])}><span>${labelOf(feature)}</span><span>${feature.class}</span></button></li>`
+          ? html`<li><button @click=${() => this.session.selection.select([id])}><span>${labelOf(feature)}</span><span title=${feature.class}>${classText(feature.class)}</span></button></li>`
           : nothing;
       })}</ul>
     `;
@@ -183,7 +189,7 @@ export class PropertiesPanel extends Part {
       <ul class="along">${stretches.map(
         (
           s,
-        ) => html`<li><button @click=${() => this.session.selection.select([s.id])}><span>${labelOf(s)} <span class="quiet">${s.class}</span></span>
+        ) => html`<li><button @click=${() => this.session.selection.select([s.id])}><span>${labelOf(s)} <span class="quiet" title=${s.class}>${classText(s.class)}</span></span>
           <span>${t("alongAt", { from: number(s.from, 2), to: number(s.to, 2) })}</span></button></li>`,
       )}</ul>
     `;

@@ -8,14 +8,21 @@ import { repeat } from "lit/directives/repeat.js";
 import type { EngineError } from "../engine";
 import type { CitySearch } from "../city/city_search";
 import type { CityStream } from "../city/city_stream";
+import { coverText } from "../city/cover";
 import { ancestors, isGroupOfParts, labelOf } from "../state/feature_index";
+import { areSpacesShown, showAll, showSpaces } from "../shown_spaces";
+import { classText } from "../state/class_words";
 import { ofClass, ofId, ofSubtree } from "../state/queries";
+import { spacesOf } from "../state/spaces";
 import { SeenCounts, subtree, type Seen } from "../state/visibility";
 import { t } from "../texts";
+import { toolText } from "../tool_texts";
 import { shownText } from "./shown_text";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
+import { eyeOf } from "./eye";
 import { kindOf } from "./feature_path";
+import "./feature_groups";
 import { askForMenu, isMenuKey } from "./menu_request";
 import { firstOpen, rowsOf, type Rows } from "./tree_rows";
 
@@ -63,6 +70,8 @@ export class TreePanel extends Part {
   private seenSelection: unknown = null;
   private seenHidden: unknown = null;
   private counts!: SeenCounts;
+  /** Rooms and other spaces with voxels. */
+  private spaces: readonly number[] = [];
   private rows: Rows = { shown: [], matches: null, isOpen: () => false };
   private readonly watched = new ResizeObserver(([entry]) => (this.listHeight = entry?.contentRect.height ?? 0));
 
@@ -99,9 +108,6 @@ export class TreePanel extends Part {
       .eye { color: var(--quiet); }
       .eye.none { color: var(--text); }
       footer { padding: 8px 10px; border-top: 1px solid var(--line); display: grid; gap: 6px; }
-      .classes { list-style: none; margin: 0; padding: 0; }
-      .classes li { position: static; padding-left: 8px; }
-      .classes button.name { flex: 1; justify-content: flex-start; overflow: hidden; }
       .note { display: flex; gap: 8px; align-items: center; justify-content: space-between; }
     `,
   ];
@@ -132,6 +138,7 @@ export class TreePanel extends Part {
     }
     if (this.seenIndex !== index) {
       this.seenIndex = index;
+      this.spaces = spacesOf(index);
       // Other tiles of a city: the search stays.
       const isSameCity = model.city !== null && this.seenCity === model.city;
       this.seenCity = model.city;
@@ -179,7 +186,9 @@ export class TreePanel extends Part {
 
   override render() {
     const { session } = this;
-    const { hiddenSolids } = this.counts;
+    const cover = coverText(session);
+    const spaces = this.spaces.length;
+    const hidden = this.counts.hiddenSolids - this.counts.hiddenOf(this.spaces);
     return html`
       <header>
         <div class="segments" role="tablist" aria-label=${t("panelTree")} @keydown=${this.tabKey}>
@@ -196,6 +205,7 @@ export class TreePanel extends Part {
             </div>`
             : nothing
         }
+        ${cover ? html`<div class="small quiet" id="cover">${cover}</div>` : nothing}
         ${
           this.search && this.tab === "structure"
             ? html`<div class="small quiet" role="status">${this.rows.matches ? t("found", { n: this.rows.matches }) : session.model.city ? nothing : t("nothingFound")}</div>
@@ -204,7 +214,11 @@ export class TreePanel extends Part {
         }
       </header>
       <div id="panel" class="list" role="tabpanel" aria-labelledby="tab-${this.tab}" tabindex="-1" @scroll=${this.scrolled}>
-        ${this.tab === "structure" ? this.tree() : this.classes()}
+        ${
+          this.tab === "structure"
+            ? this.tree()
+            : html`<svt-groups .session=${session} .counts=${this.counts} .edited=${this.edited?.query ?? ""} @svt-edit=${this.editGroup}></svt-groups>`
+        }
       </div>
       <footer>
         ${this.edited ? this.editor(this.edited) : nothing}
@@ -215,9 +229,15 @@ export class TreePanel extends Part {
             : nothing
         }
         ${
-          hiddenSolids
-            ? html`<div class="note small"><span>${t("hiddenCount", { n: hiddenSolids })}</span>
-              <button class="small" @click=${() => session.view.set({ hide: [] })}>${t("showAll")}</button></div>`
+          hidden
+            ? html`<div class="note small"><span>${t("hiddenCount", { n: hidden })}</span>
+              <button class="small" @click=${() => showAll(session)}>${t("showAll")}</button></div>`
+            : nothing
+        }
+        ${
+          spaces
+            ? html`<label class="check small"><input type="checkbox" id="spaces" .checked=${areSpacesShown(session)}
+              @change=${(e: Event) => showSpaces(session, (e.target as HTMLInputElement).checked)} />${toolText("spaces", { n: spaces })}</label>`
             : nothing
         }
         <form @submit=${this.ask}>
@@ -282,42 +302,11 @@ export class TreePanel extends Part {
           : nothing
       }
       <span class="kind">${icon(kindOf(feature), 14)}</span>
-      <span class="name" title="${labelOf(feature)} · ${feature.class}">${labelOf(feature)} <span class="quiet">${feature.type || feature.class}</span></span>
+      <span class="name" title="${labelOf(feature)} · ${feature.type || feature.class}">${labelOf(feature)} <span class="quiet">${classText(feature.type || feature.class)}</span></span>
       ${isParent ? html`<span class="count">${this.counts.solidsOf(i)}</span>` : nothing}
       ${seen === "none" ? html`<span class="visually-hidden">${t("isHidden")}</span>` : nothing}
       <button class="bare eye ${seen}" tabindex="-1" aria-hidden="true" title=${seen === "none" ? t("show") : t("hide")} @click=${(e: Event) => this.see(i, seen, e)}>${eyeOf(seen)}</button>
     </div>`;
-  }
-
-  private classes() {
-    const { index } = this.session.volume;
-    const { styles } = this.session.view.now;
-    const rows = [...index.classes].map(([name, members]) => ({
-      name,
-      members,
-      solids: members.filter((i) => index.features[i]!.count > 0),
-    }));
-    return html`<ul class="classes">
-      ${rows
-        .filter((row) => row.solids.length)
-        .map(({ name, members, solids }) => {
-          const seen = this.counts.ofMembers(members);
-          const query = ofClass(name);
-          const color = styles.find((s) => s.select === query && s.color)?.color ?? index.features[solids[0]!]!.color;
-          return html`<li class="item ${seen === "none" ? "gone" : ""}">
-          <button class="bare" aria-label=${t("styleOf", { name })} aria-expanded=${this.edited?.query === query}
-            @click=${() => this.editQuery(query, name, solids[0]!)}><span class="swatch" data-color=${color}></span></button>
-          <button class="bare name" @click=${(e: MouseEvent) =>
-            this.session.selection.select(
-              members.map((i) => index.features[i]!.id),
-              e.ctrlKey,
-              query,
-            )}><span class="name">${name}</span></button>
-          <span class="count">${solids.length}</span>
-          <button class="bare eye ${seen}" aria-pressed=${seen === "none"} aria-label="${t("hide")}: ${name}" @click=${() => this.session.view.hide(members, seen !== "none")}>${eyeOf(seen)}</button>
-        </li>`;
-        })}
-    </ul>`;
   }
 
   private editor(edited: NonNullable<typeof this.edited>) {
@@ -408,6 +397,15 @@ export class TreePanel extends Part {
     return isGroupOfParts(index, i) ? ofSubtree(id) : ofId(id);
   }
 
+  private readonly editGroup = ({ detail: { query, name, like } }: CustomEvent<{ query: string; name: string; like: number[] }>): void => {
+    const { features } = this.session.volume.index;
+    this.editQuery(
+      query,
+      name,
+      like.find((i) => features[i]!.count > 0)!,
+    );
+  };
+
   private editQuery(query: string, label: string, like: number): void {
     const { color, opacity } = this.session.volume.index.features[like]!;
     this.edited = this.edited?.query === query ? null : { query, label, color, opacity };
@@ -421,7 +419,8 @@ export class TreePanel extends Part {
     try {
       const ids = await this.session.volume.engine.select(query);
       this.session.selection.select(ids, false, query);
-      this.answer = t("selectedByQuery", { n: ids.length });
+      const cover = coverText(this.session);
+      this.answer = t("selectedByQuery", { n: ids.length }) + (cover ? `. ${cover}` : "");
     } catch (error) {
       this.error = (error as EngineError).message;
     }
@@ -511,7 +510,3 @@ export class TreePanel extends Part {
   };
 }
 customElements.define("svt-tree", TreePanel);
-
-function eyeOf(seen: Seen) {
-  return icon(seen === "all" ? "eye" : seen === "none" ? "eyeOff" : "eyePart", 16);
-}

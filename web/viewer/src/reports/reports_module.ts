@@ -9,8 +9,28 @@ interface Waiting {
   reject: (error: EngineError) => void;
 }
 
+/** A worker that waits for its first call; null: none. */
+let spare: Worker | null = null;
+
+function newWorker(): Worker {
+  return new Worker(new URL("./reports_worker.ts", import.meta.url), { type: "module", name: "svt reports" });
+}
+
+/** Loads the module for later calls, which then need no connection. Resolves when it is there, or cannot be loaded. */
+export function prepareReports(): Promise<void> {
+  const worker = (spare ??= newWorker());
+  return new Promise((resolve) => {
+    worker.onmessage = () => resolve();
+    worker.onerror = (event) => {
+      event.preventDefault();
+      if (spare === worker) spare = null;
+      resolve();
+    };
+  });
+}
+
 export class ReportsModule {
-  private readonly worker = new Worker(new URL("./reports_worker.ts", import.meta.url), { type: "module", name: "svt reports" });
+  private readonly worker = spare ?? newWorker();
   /** The calls without an answer; answers come in their order. */
   private waiting: Waiting[] = [];
   /** null: the worker runs. */
@@ -18,12 +38,14 @@ export class ReportsModule {
 
   /** @param signal  ends the worker; then calls reject with kCancelled */
   constructor(onProgress: (step: string, done: number) => void, signal: AbortSignal) {
+    spare = null;
     signal.addEventListener("abort", () => this.end());
     this.worker.onerror = (event) => {
       event.preventDefault();
       this.end({ code: "E999", message: `the report cannot run here (${event.message})` });
     };
     this.worker.onmessage = ({ data }: MessageEvent<ReportAnswer>) => {
+      if ("isReady" in data) return;
       if ("step" in data) return onProgress(data.step, data.done);
       const next = this.waiting.shift();
       if ("reply" in data) next?.resolve(data.reply);

@@ -13,19 +13,24 @@ export interface ReportRequest {
   files: FileBytes[];
 }
 
-/** Each call has one reply or one error, after any number of steps. */
-export type ReportAnswer = { step: string; done: number } | { error: EngineError } | { reply: ArrayBuffer };
+/** Once, whether the module has come; then each call has one reply or one error, after any number of steps. */
+export type ReportAnswer = { isReady: boolean } | { step: string; done: number } | { error: EngineError } | { reply: ArrayBuffer };
 
 const kModule = new URL("../../../../build/web/svt_reports.wasm", import.meta.url);
 
 const post = (answer: ReportAnswer, transfer: Transferable[] = []) => self.postMessage(answer, { transfer });
-const loading = load();
-loading.catch(() => undefined);
+const compiling = compiled(kModule);
+compiling.then(
+  () => post({ isReady: true }),
+  () => post({ isReady: false }),
+);
+/** Made by the first call; a worker that only waits has no memory of the library. */
+let loading: Promise<SvtModule> | null = null;
 /** The answer to the last call. */
 let last = Promise.resolve();
 
 async function load(): Promise<SvtModule> {
-  return instantiated(createReports, await compiled(kModule), { onProgress: (step, done) => post({ step, done }) });
+  return instantiated(createReports, await compiling.catch(() => compiled(kModule)), { onProgress: (step, done) => post({ step, done }) });
 }
 
 self.onmessage = ({ data }: MessageEvent<ReportRequest>) => {
@@ -39,8 +44,9 @@ function failed(error: unknown): void {
 
 async function loaded(): Promise<SvtModule> {
   try {
-    return await loading;
+    return await (loading ??= load());
   } catch (error) {
+    loading = null;
     const reason = error instanceof Error ? error.message : String(error);
     const message = `the part of the program that compares and measures models cannot be loaded (${reason}); check the connection and try again. A page in one file does not have it`;
     throw { code: "E101", message } satisfies EngineError;

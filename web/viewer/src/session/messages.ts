@@ -10,8 +10,8 @@ export interface Message {
   isError: boolean;
   /** The error itself; its code may be empty. */
   error?: EngineError;
-  /** The message ends with the next change of the view by the user. */
-  isOfChoice?: boolean;
+  /** The message ends with the next choice for the picture, with any next action of the user, or when it is closed. */
+  until: "choice" | "action" | "closed";
   /** Buttons that repair it. */
   repairs?: { text: string; act: () => void }[];
 }
@@ -28,24 +28,30 @@ export class Messages extends Observable {
   /** Text for screen readers. */
   said = "";
 
-  /** @param log  where the error is also written, with its title */
+  /** With a title, the message stays until it is closed. @param log  where the error is also written, with its title */
   fail(error: unknown, title?: string, log: (text: string) => void = console.error): void {
     const { code, message } = error as Partial<EngineError>;
     if (code === kCancelled) return;
     const text = message ?? String(error);
     log(`svt: ${title ? `${title}: ` : ""}${code ? `${code}: ` : ""}${text}`);
     const given = { code: code ?? "", message: text };
-    this.message = { ...(title ? { title } : {}), text: code ? `${text} (${code})` : text, isError: true, error: given };
+    this.message = {
+      ...(title ? { title } : {}),
+      text: code ? `${text} (${code})` : text,
+      isError: true,
+      error: given,
+      until: title ? "closed" : "action",
+    };
   }
 
   /** A choice that cannot be drawn, and was taken back. */
   refuse(error: EngineError, title: string, repairs: NonNullable<Message["repairs"]>): void {
     this.fail(error, title, console.warn);
-    if (this.message) this.message = { ...this.message, isOfChoice: true, ...(repairs.length ? { repairs } : {}) };
+    if (this.message) this.message = { ...this.message, until: "choice", ...(repairs.length ? { repairs } : {}) };
   }
 
-  tell(text: string): void {
-    this.message = { text, isError: false };
+  tell(text: string, until: Message["until"] = "action"): void {
+    this.message = { text, isError: false, until };
     this.say(text);
   }
 

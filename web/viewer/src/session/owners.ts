@@ -14,7 +14,7 @@ export class Owners extends ViewPart {
   /** Applies a table, and colours features by it at once. Rejects with an error of the library that names the line. */
   async give(table: ArrayBuffer, file: string): Promise<void> {
     const { engine, info } = this.volume;
-    if (!engine || !info) return this.messages.tell(t("ownersNeedModel", { name: file }));
+    if (!engine || !info) return this.messages.tell(t("ownersNeedModel", { name: file }), "closed");
     const unknown = await engine.owners(table.slice(0), file);
     this.table = table;
     this.file = file;
@@ -26,6 +26,7 @@ export class Owners extends ViewPart {
       first
         ? `${given} ${t("ownersUnknown", { n: unknown.length < kMostMessages ? unknown.length : `≥ ${kMostMessages}`, first })}`
         : given,
+      first ? "closed" : "action",
     );
   }
 

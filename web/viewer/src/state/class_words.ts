@@ -1,7 +1,24 @@
-/** Words for classes of building models and types of IFC, so that a search in the page's language finds them. */
+/** Words for classes of building models and types of IFC: to show, and for a search in the page's language. */
 
-import { otherTexts } from "../texts";
+import { kClassTerms } from "../generated/class_terms";
+import { language, otherTexts } from "../texts";
 
+/** The name in the tables of words: without its namespace, the prefix Ifc, and the endings of IFC for the same thing. */
+function bareName(name: string): string {
+  return name
+    .replace(/^.*:/, "")
+    .replace(/^Ifc(?=[A-Z])/, "")
+    .replace(/(Standard|Elemented)Case$/, "");
+}
+
+/** A class or a type in the language of the page; its name in English, and where there is no word. */
+export function classText(name: string): string {
+  const other = otherTexts()?.classes;
+  if (other) return other[name] ?? other[bareName(name)] ?? name;
+  return (language() === "de" ? kClassTerms[bareName(name)]?.[1] : undefined) ?? name;
+}
+
+/** More words, for a search. */
 const kWords: [pattern: RegExp, german: string, english: string][] = [
   [/^(GroundSurface|Footing|Pile)|Footing|Pile$/, "Grundfläche Fundament Gründung", "foundation"],
   [/Window/, "Fenster", "window glazing"],
@@ -31,8 +48,9 @@ const kWords: [pattern: RegExp, german: string, english: string][] = [
 export function classWords(className: string, type = ""): string {
   const isFor = (pattern: RegExp) => pattern.test(className) || pattern.test(type);
   const words = kWords.filter(([pattern]) => isFor(pattern)).map(([, german, english]) => `${german} ${english}`);
+  const terms = [className, type].flatMap((name) => kClassTerms[bareName(name)] ?? []);
   const own = Object.entries(otherTexts()?.classes ?? {})
     .filter(([name]) => className.includes(name) || type.includes(name))
     .map(([, word]) => word);
-  return [...words, ...own].join(" ");
+  return [...words, ...terms, ...own].join(" ");
 }

@@ -19,6 +19,18 @@ export function hiddenSpaces(index: FeatureIndex): string[] {
   return spaceClasses(index).map(ofClass);
 }
 
+const kSpaces = new WeakMap<FeatureIndex, readonly number[]>();
+
+/** Spaces with voxels; none if the model consists of spaces. */
+export function spacesOf(index: FeatureIndex): readonly number[] {
+  let spaces = kSpaces.get(index);
+  if (!spaces) {
+    spaces = spaceClasses(index).flatMap((name) => index.classes.get(name)!.filter((i) => index.features[i]!.count > 0));
+    kSpaces.set(index, spaces);
+  }
+  return spaces;
+}
+
 /** Whether a query names only classes of spaces, or spaces one by one. */
 function isOfSpaces(index: FeatureIndex, classes: readonly string[], query: string): boolean {
   const terms = ownTerms(query);

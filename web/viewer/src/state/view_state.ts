@@ -128,7 +128,14 @@ const kFree: readonly (keyof ViewState)[] = ["camera", "preset", "selection", "s
 
 /** Whether two views differ at most in members that a picture can always follow. */
 export function isSameChoice(a: ViewState, b: ViewState): boolean {
-  return (Object.keys(b) as (keyof ViewState)[]).every((key) => kFree.includes(key) || a[key] === b[key]);
+  return isSameBut(kFree, a, b);
+}
+/** Whether two views differ at most in their cameras. */
+export function isSameButCamera(a: ViewState, b: ViewState): boolean {
+  return isSameBut(["camera", "preset"], a, b);
+}
+function isSameBut(free: readonly (keyof ViewState)[], a: ViewState, b: ViewState): boolean {
+  return (Object.keys(b) as (keyof ViewState)[]).every((key) => free.includes(key) || a[key] === b[key]);
 }
 
 /** Changes the style of exactly this query; a style without any setting is removed. */

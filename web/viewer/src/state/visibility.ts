@@ -167,6 +167,10 @@ export class SeenCounts {
     return this.hidden[this.hidden.length - 1]!;
   }
 
+  hiddenOf(members: readonly number[]): number {
+    return sum(this.hidden, members);
+  }
+
   /** Number of features with voxels in a subtree, with the members of groups. */
   solidsOf(i: number): number {
     return hasGroups(this.index, i) ? sum(this.solids, subtree(this.index, i)) : this.index.solids[i]!;

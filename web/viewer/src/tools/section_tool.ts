@@ -78,7 +78,7 @@ export class SectionTool extends Part {
       ${isBox ? this.box(sections) : sections.map((section, n) => this.plane(section, n))}
       <div class="row">
         <button class=${sections.length ? "" : "loud"} id="add-plane" @click=${() => this.add()}>${icon("plus", 16)}${t("addPlane")}</button>
-        <label class="check" title=${help("/hatches/show")}><input type="checkbox" .checked=${isHatched} @change=${(e: Event) => session.view.set({ hatches: (e.target as HTMLInputElement).checked })} />${t("hatches")}</label>
+        <label class="check" title=${help("/hatches/show")}><input type="checkbox" id="hatches" .checked=${isHatched} @change=${(e: Event) => session.view.set({ hatches: (e.target as HTMLInputElement).checked })} />${t("hatches")}</label>
       </div>
       <div class="row">
         <button id="plane-by-face" aria-pressed=${session.view.aim === "face"} title=${toolText("faceHint")} @click=${() => (session.view.aim = session.view.aim === "face" ? null : "face")}>${icon("target", 16)}${toolText("planeByFace")}</button>
@@ -107,8 +107,9 @@ export class SectionTool extends Part {
   }
 
   private drawingParts() {
-    const { info } = this.session.volume;
+    const { info, isCity } = this.session.volume;
     if (!info) return nothing;
+    if (isCity) return html`<p class="quiet small">${toolText("cityDrawings")}</p>`;
     const lacks = !info.hasMeshes;
     return html`<div class="row small drawings" role="group" aria-label=${t("drawnToo")}><span class="quiet grow">${t("drawnToo")}</span>${kParts.map(
       ([
@@ -239,7 +240,9 @@ export class SectionTool extends Part {
     const { session } = this;
     const drawn: DrawingFormat = format === "png" ? "svg" : format;
     try {
-      const bytes = await session.volume.engine!.drawing(regionOf(session.view.now.sections[n]!), drawn, this.parts);
+      const plane = regionOf(session.view.now.sections[n]!);
+      const { city } = session.model;
+      const bytes = await (city ? city.draw(plane, drawn) : session.volume.engine!.drawing(plane, drawn, this.parts));
       save(format === "png" ? await pngOf(bytes, kPngScale) : bytes, `section-${n + 1}.${format}`);
     } catch (error) {
       session.messages.fail(error);

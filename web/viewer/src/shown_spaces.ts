@@ -1,0 +1,25 @@
+/** The switch for rooms and other spaces, which pictures leave out at first. */
+
+import type { Session } from "./session";
+import { hiddenSpaces, spacesOf } from "./state/spaces";
+
+/** Whether any rooms and other spaces are visible. */
+export function areSpacesShown({ volume, view }: Session): boolean {
+  return spacesOf(volume.index).some((i) => !view.hidden[i]);
+}
+
+/** Whether anything but spaces is hidden. */
+export function hasHiddenParts({ volume, view }: Session): boolean {
+  const { features } = volume.index;
+  const spaces = new Set(spacesOf(volume.index));
+  return features.some(({ count }, i) => count > 0 && view.hidden[i] && !spaces.has(i));
+}
+
+export function showSpaces({ volume, view }: Session, isShown: boolean): void {
+  view.hide(spacesOf(volume.index), !isShown, hiddenSpaces(volume.index));
+}
+
+/** Shows everything; spaces only if some of them are visible already. */
+export function showAll(session: Session): void {
+  session.view.set({ show: [], hide: areSpacesShown(session) ? [] : hiddenSpaces(session.volume.index) });
+}
