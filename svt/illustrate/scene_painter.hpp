@@ -71,6 +71,15 @@ public:
     /// \return success, or an error of fields::FieldSampler::make()
     /// Cost: that of FieldSampler::make().
     [[nodiscard]] Result<void> showField(const fields::Field* field);
+    /// The legend of a scene with this field.
+    /// \return the scale, or an error of paint() for such a scene
+    [[nodiscard]] Result<ColorScale> scaleOfField(const Scene& scene) const;
+    /// The values of this field at a surface, at all of its times; the lengths of vectors. NaN where a value is missing.
+    /// \param label   scalar of the object
+    /// \param world   on the surface, metres
+    /// \param normal  towards the viewer, unit length
+    /// \return the values, or BadArgument without a field
+    [[nodiscard]] Result<std::vector<float>> fieldAt(volume::Scalar label, Vec3d world, Vec3d normal) const;
 
     /// From now on `detail` replaces the same part of the volume, see details.hpp. Drafts ignore it.
     /// \param detail  processed by joinLabels(); must outlive the painter

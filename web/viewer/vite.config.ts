@@ -5,6 +5,7 @@ import { billOfMaterialsPlugin } from "./sbom_plugin";
 import { basemapTemplate } from "./src/basemap/texts";
 import { compareTemplate } from "./src/comparing/texts";
 import { quantityTemplate } from "./src/quantities/texts";
+import { fieldTemplate } from "./src/fields/texts";
 import { fileTemplate } from "./src/reports/files";
 import { template } from "./src/texts";
 import { lateTemplate } from "./src/late_texts";
@@ -41,7 +42,7 @@ export default defineConfig({
         this.emitFile({
           type: "asset",
           fileName: "languages/template.json",
-          source: `${JSON.stringify({ texts: { ...template(), ...toolTemplate(), ...lateTemplate(), ...compareTemplate(), ...fileTemplate(), ...quantityTemplate(), ...basemapTemplate() }, classes: {} }, null, 1)}\n`,
+          source: `${JSON.stringify({ texts: { ...template(), ...toolTemplate(), ...lateTemplate(), ...compareTemplate(), ...fileTemplate(), ...quantityTemplate(), ...basemapTemplate(), ...fieldTemplate() }, classes: {} }, null, 1)}\n`,
         });
       },
     },

@@ -114,13 +114,18 @@ Result<Reply> places(const Arguments& arguments) {
     return Reply(list.dump());
 }
 
-// (scene) -> the meaning of the colours of its colorBy: {title, isRamp, low, high, ramp: [color],
+// (scene) -> the meaning of the colours of its colorBy or its field: {title, isRamp, low, high, ramp: [color],
 // entries: [{text, count, color}], missing, missingColor}; the colours of a ramp are at equal steps
 Result<Reply> legend(const Arguments& arguments) {
     SVT_TRY(scene, arguments.scene(0));
     illustrate::ColorScale scale;
-    const analyze::LabelRows rows(session->volume());
-    SVT_DO(illustrate::makeFrameSpec(*scene, session->volume(), rows, &scale));
+    if (scene->field) {
+        SVT_TRY(own, session->scaleOfField(*scene));
+        scale = std::move(*own);
+    } else {
+        const analyze::LabelRows rows(session->volume());
+        SVT_DO(illustrate::makeFrameSpec(*scene, session->volume(), rows, &scale));
+    }
     Json entries = Json::array(), ramp = Json::array();
     for (const auto& entry : scale.entries)
         entries.push_back({{"text", entry.text}, {"count", entry.count}, {"color", image::colorText(entry.color)}});
@@ -134,6 +139,7 @@ Result<Reply> legend(const Arguments& arguments) {
                       {"high", scale.high},
                       {"ramp", std::move(ramp)},
                       {"entries", std::move(entries)},
+                      {"notes", scale.notes},
                       {"missing", scale.missing},
                       {"missingColor", image::colorText(illustrate::missingColor())}}
                      .dump());
@@ -355,7 +361,7 @@ CityPage& openCity() {
 }
 
 Result<Reply> runCall(std::string_view name, const Arguments& arguments) {
-    for (const std::span<const Call> calls : {std::span<const Call>(kCalls), wholeCalls()}) {
+    for (const std::span<const Call> calls : {std::span<const Call>(kCalls), wholeCalls(), fieldCalls()}) {
         const Call* const call = findCall(calls, name);
         if (call == nullptr) continue;
         if (call->needsVolume && !session) return Error(Code::BadArgument, "no volume is open; open one first");

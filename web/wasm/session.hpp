@@ -104,6 +104,21 @@ public:
     /// All intervals along the ray through a position of the last picture, nearest first.
     [[nodiscard]] Result<std::vector<render::LabelInterval>> along(double x, double y);
 
+    /// From now on scenes with this field are drawn, see ScenePainter::showField(). Only in the whole module.
+    [[nodiscard]] Result<void> showField(fields::Field field);
+    /// The field of showField(); null: none.
+    [[nodiscard]] const fields::Field* shownField() const noexcept { return field_ ? &*field_ : nullptr; }
+    /// The object at a position of the last picture, and the values of the field there at all of its times; NaN: missing.
+    struct FieldSeries {
+        std::optional<Picked> picked;
+        std::vector<float> values;
+    };
+    [[nodiscard]] Result<FieldSeries> fieldAt(double x, double y);
+    /// The legend of a scene with a field, see ScenePainter::scaleOfField().
+    [[nodiscard]] Result<illustrate::ColorScale> scaleOfField(const illustrate::Scene& scene) const {
+        return painter_.scaleOfField(scene);
+    }
+
     /// A feature of a city with its surroundings, as a separate volume; null if the feature lacks own voxels.
     [[nodiscard]] std::unique_ptr<Session> around(std::uint32_t label) const;
     /// Contacts between features; computed on first use.
@@ -127,7 +142,8 @@ private:
     Diagnostics findings_;
     std::string spacingReason_;
     bool hasOwners_ = false, isOfParts_ = false;
-    std::vector<std::string> nothing_;  // queries that select no visible feature of a city
+    std::optional<fields::Field> field_;  // outlives the painter
+    std::vector<std::string> nothing_;    // queries that select no visible feature of a city
     illustrate::ScenePainter painter_;
     std::optional<render::FrameSpec> lastSpec_;
     std::vector<illustrate::VolumeRepresentation> lastRepresentations_;

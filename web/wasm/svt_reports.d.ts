@@ -1,3 +1,3 @@
-/** The types of svt_reports.js are those of svt.js. Its calls are those of web/wasm/compare.cpp and quantities.cpp. */
+/** The types of svt_reports.js are those of svt.js. Its calls are those of web/wasm/reports. */
 export * from "./svt.js";
 export { default } from "./svt.js";

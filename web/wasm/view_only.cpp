@@ -10,4 +10,6 @@ illustrate::FaceMaker faceMaker() noexcept { return nullptr; }
 
 std::span<const Call> wholeCalls() noexcept { return {}; }
 
+std::span<const Call> fieldCalls() noexcept { return {}; }
+
 }  // namespace svt::web

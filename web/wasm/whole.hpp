@@ -30,5 +30,7 @@ struct BuiltVolume {
 
 /// The calls of drawings and sheets; none in the module without writers.
 [[nodiscard]] std::span<const Call> wholeCalls() noexcept;
+/// The calls on fields; none in the module that only draws.
+[[nodiscard]] std::span<const Call> fieldCalls() noexcept;
 
 }  // namespace svt::web

@@ -242,6 +242,25 @@ Result<void> ScenePainter::showField(const fields::Field* field) {
     return {};
 }
 
+Result<ColorScale> ScenePainter::scaleOfField(const Scene& scene) const {
+    SVT_DO(checkField(scene));
+    if (!scene.field) return Error(Code::BadArgument, "the scene has no field");
+    Scene plain = scene;
+    plain.field.reset();
+    const analyze::LabelRows rows(volume_);
+    SVT_TRY(spec, makeFrameSpec(plain, volume_, rows));
+    SVT_TRY(paint, field_->paintFrame(scene, rows, *spec));
+    return std::move(paint->scale);
+}
+
+Result<std::vector<float>> ScenePainter::fieldAt(volume::Scalar label, Vec3d world, Vec3d normal) const {
+    if (field_ == nullptr) return Error(Code::BadArgument, "no field is shown");
+    std::vector<float> values;
+    for (const double seconds : field_->head().times)
+        values.push_back(field_->valueAt({label, world, normal}, seconds));
+    return values;
+}
+
 // Refuses a field that this picture cannot show.
 Result<void> ScenePainter::checkField(const Scene& scene) const {
     if (!scene.field) return {};

@@ -58,9 +58,12 @@ function diff(old, is) {
 }
 
 describe("comparing", () => {
-  it("loads its module only for a comparison", async () => {
+  it("loads its module only for a comparison where the browser is to save data", async () => {
     const asked = [];
     await open();
+    await visit.page.addInitScript(() => Object.defineProperty(navigator, "connection", { value: { saveData: true } }));
+    await visit.page.reload();
+    await visit.firstImage();
     visit.page.on("request", (request) => asked.push(request.url()));
     const isOfComparison = (url) => /svt_reports|reports_worker|changes_panel|quantities_panel/.test(url);
     await settled();
@@ -262,6 +265,8 @@ describe("comparing", () => {
   it("states that the module could not be loaded, and tries again", async () => {
     await open("?old=old&new=other");
     await visit.page.context().route(/svt_reports-/, (route) => route.abort());
+    await visit.page.reload();
+    await visit.firstImage();
     await panel().locator("#compare-is").selectOption("new");
     await panel().locator("#compare-run").click();
     await visit.message("cannot be loaded");

@@ -223,6 +223,8 @@ describe("quantities", () => {
 
   it("work by keyboard alone, and end with the panel", async () => {
     await open();
+    // The worker that waits for a first call does the work; no other one follows.
+    await visit.page.waitForFunction(() => performance.getEntriesByName("svt-all-scripts").length > 0);
     await visit.page.keyboard.press("Control+k");
     await visit.page.locator("svt-palette input:focus").waitFor();
     await visit.page.keyboard.type("quantities");
@@ -243,6 +245,8 @@ describe("quantities", () => {
   it("give reasons: a wrong query, nothing selected, a comparison, a module that does not come", async () => {
     await open();
     await visit.page.context().route(/svt_reports-/, (route) => route.abort());
+    await visit.page.reload();
+    await visit.firstImage();
     await visit.page.click("#quantities");
     await visit.message("cannot be loaded");
     await visit.page.context().unroute(/svt_reports-/);
@@ -270,6 +274,8 @@ describe("quantities", () => {
     let release = () => {};
     const held = new Promise((done) => (release = () => done(null)));
     await visit.page.context().route(/svt_reports-.*wasm/, async (route) => (await held, route.continue().catch(() => {})));
+    await visit.page.reload();
+    await visit.firstImage();
     await visit.page.click("#quantities");
     await own().locator("#quantities-cancel").click();
     await own().getByText("Stopped.").waitFor();

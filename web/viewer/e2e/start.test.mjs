@@ -15,7 +15,7 @@ const axe = readFileSync(join(repository, "web/viewer/node_modules/axe-core/axe.
 
 /** Scripts that are fetched when they are first used, or after the first fine picture. */
 const kOnRequest =
-  /^(basemap_choice|bcf|color_legend|late|section_panes|object_table|command_palette|context_menu|help_dialog|aim_layer|details|late_texts|picture_keys|walk_pad|print_sheets|changes_panel|quantities_panel|reports_module|table_rows|reports_worker|svt_reports|engine_server)-/;
+  /^(basemap_choice|bcf|city_search|class_terms|feature_groups|field_choice|probe|color_legend|late|section_panes|object_table|command_palette|context_menu|help_dialog|aim_layer|details|late_texts|picture_keys|walk_pad|print_sheets|changes_panel|quantities_panel|reports_module|table_rows|reports_worker|svt_reports|engine_server)-/;
 
 describe("start", () => {
   it("keeps the budget of bytes", (t) => {

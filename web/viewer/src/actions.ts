@@ -1,18 +1,15 @@
 /** All actions of the page, in one list: keys, context menus and the command palette take them from here. */
 
 import { movedByKey } from "./camera/view_keys";
-import { lookActions } from "./look_actions";
 import { selectionActions } from "./selection_actions";
 import type { Session } from "./session";
 import type { Tool } from "./session/view";
-import { coloredBy, colorKeys } from "./state/color_keys";
 import { kViews } from "./state/member_controls";
 import { spacesOf } from "./state/spaces";
 import { areSpacesShown, showAll, showSpaces } from "./shown_spaces";
-import { t, type TextKey } from "./texts";
+import { t } from "./texts";
 import { toggleParallel } from "./camera/projection";
 import { toolText } from "./tool_texts";
-import { cutStorey, levelsOf } from "./tools/section_tool";
 import { setWalking } from "./tools/views_tool";
 import type { IconName } from "./ui/icons";
 
@@ -59,9 +56,6 @@ export const kTools: readonly { tool: Tool; icon: IconName; key: string }[] = [
   { tool: "share", icon: "share", key: "b" },
 ];
 
-const kMostStoreys = 200;
-const kMostAttributes = 100;
-
 /** The action of a key that is enabled now. */
 export function actionOfKey(actions: readonly Action[], event: KeyboardEvent): Action | undefined {
   const key = event.key.toLowerCase();
@@ -82,7 +76,6 @@ export function actionsOf(host: ActionHost): Action[] {
       ofModel({ id: `tool-${tool}`, text: () => t(tool), icon, keys: [key], run: () => host.useTool(tool) }),
     ),
     ...viewActions(session).map(ofModel),
-    ...lookActions(session).map(ofModel),
     ...pageActions(host, hasParts),
     ...toolActions(host).map(ofModel),
   ];
@@ -237,39 +230,4 @@ function toolActions(host: ActionHost): Action[] {
     press("import-views", () => t("bookmarksImport"), "bookmark", "share", "#import-views"),
     press("export-bcf", () => t("bcfExport"), "bookmark", "share", "#export-bcf"),
   ];
-}
-
-/** Colours by each key. Not in `actionsOf`, because the keys depend on all features. */
-export function colorActions({ model, view, volume }: Session): Action[] {
-  const { info, index } = volume;
-  if (!info) return [];
-  const keys = colorKeys(info, index, model.owners.file !== "");
-  const action = (key: string, name: string): Action => ({
-    id: `color-${key}`,
-    text: () => `${t("colorBy")}: ${name}`,
-    icon: "look",
-    run: () => view.set(coloredBy(view.state, key, keys, index)),
-  });
-  return [
-    ...keys.own.map(({ key }) => action(key, t(`key_${key}` as TextKey))),
-    ...keys.attributes.slice(0, kMostAttributes).map(({ key }) => action(key, key)),
-    {
-      id: "color-none",
-      text: () => `${t("colorBy")}: ${t("colorByNothing")}`,
-      icon: "look",
-      run: () => view.set(coloredBy(view.state, "", keys, index)),
-    },
-  ];
-}
-
-/** Sections at the storeys. Not in `actionsOf`, because a district has thousands of storeys, and none has a key. */
-export function storeyActions({ volume, view }: Session): Action[] {
-  return levelsOf(volume.info?.storeys ?? [])
-    .slice(0, kMostStoreys)
-    .map(({ name, floor }, n) => ({
-      id: `storey-${n}`,
-      text: () => t("storeyCut", { name }),
-      icon: "section",
-      run: () => cutStorey(view, floor),
-    }));
 }

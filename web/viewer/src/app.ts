@@ -1,7 +1,7 @@
 /** The page: bar, panels, picture, tools, and global keyboard shortcuts. */
 
 import { html, nothing, type PropertyValues } from "lit";
-import { actionOfKey, actionsOf, colorActions, kTools, storeyActions, type ActionHost } from "./actions";
+import { actionOfKey, actionsOf, kTools, type ActionHost } from "./actions";
 import { appStyles } from "./app_styles";
 import type { Arrival } from "./arrival";
 import "./canvas/picture";
@@ -143,7 +143,7 @@ export class App extends Part implements ActionHost {
     if (view.isWalking && !this.wasWalking) this.picture?.focus();
     if (view.aim) void this.loaded("svt-aim", () => import("./tools/aim_layer"));
     else if (this.wasAiming) this.picture?.focus();
-    if (view.now.colorBy) void this.loaded("svt-color-legend", () => import("./panels/color_legend"));
+    if (view.now.colorBy || view.now.field) void this.loaded("svt-color-legend", () => import("./panels/color_legend"));
     if (view.isWalking && isTouch()) void this.loaded("svt-walk-pad", () => import("./tools/walk_pad"));
     this.wasWalking = view.isWalking;
     this.wasAiming = view.aim !== null;
@@ -307,7 +307,7 @@ export class App extends Part implements ActionHost {
           ${session.volume.isServerOnly ? html`<div class="note">${t("serverPictures")}</div>` : nothing}
           ${session.model.refining.isCoarse ? this.coarse() : nothing}
           ${this.missingTiles()}
-          ${view.now.colorBy ? html`<svt-color-legend .session=${session}></svt-color-legend>` : nothing}
+          ${view.now.colorBy || view.now.field ? html`<svt-color-legend .session=${session}></svt-color-legend>` : nothing}
           ${session.selection.isMore ? html`<div class="note" id="more">${toolText("moreNow")}<button @click=${() => (session.selection.isMore = false)}>${toolText("moreEnd")}</button></div>` : nothing}
           ${picture.moved.length && view.now.sections.length ? html`<div class="note" id="moved-plane">${movedText(picture.moved)}</div>` : nothing}
           ${view.isLegendShown ? html`<svt-legend .session=${session}></svt-legend>` : nothing}
@@ -605,7 +605,7 @@ export class App extends Part implements ActionHost {
 
   openPalette(): void {
     void this.loaded<CommandPalette>("svt-palette", () => import("./panels/command_palette")).then((palette) =>
-      palette?.show([...actionsOf(this), ...colorActions(this.session), ...storeyActions(this.session)]),
+      palette?.show(actionsOf(this)),
     );
   }
 
@@ -629,6 +629,8 @@ export class App extends Part implements ActionHost {
       event.preventDefault();
       selection.picked(pick, true);
     }
+    const { x, y } = event.detail;
+    if (this.session.view.state.field) void import("./fields/probe").then(({ probeOf }) => probeOf(this.session).take(x, y));
     if (pick) this.renderRoot.querySelector<SectionPanes>("svt-section-panes")?.moveTo?.(pick.point);
   };
 

@@ -48,6 +48,7 @@ export const appStyles = css`
   .column .card { flex: 0 1 auto; max-height: 66%; }
   .column .card:only-child { max-height: none; }
   .column nav + .card { max-height: 50%; }
+  .column nav + .card:has(+ aside) { max-height: 36%; }
   .card > .bar { display: flex; justify-content: space-between; align-items: center; margin-bottom: 6px; }
   .corner { position: absolute; right: 10px; top: 46px; display: grid; gap: 8px; z-index: 2; max-width: 46%; justify-items: end; }
   .status { position: absolute; right: 12px; top: 8px; font-size: 11px; color: var(--stage-quiet); z-index: 1; font-variant-numeric: tabular-nums; pointer-events: none; text-align: right; }

@@ -89,6 +89,8 @@ export interface VolumeInfo {
   /** Whether wireframes and meshes can be drawn. */
   hasEdges: boolean;
   hasMeshes: boolean;
+  /** Whether the volume has fields. Absent: no. */
+  hasFields?: boolean;
   /** Findings of building a model, worst first; empty for a `.svt`. */
   findings: string[];
 }
@@ -116,6 +118,43 @@ export interface FeatureProperties {
   /** The box of the feature with its parts; the neighbours are those of both. */
   box: { low: Point; high: Point };
   neighbours: { id: string; class: string; name: string; area: number }[];
+}
+
+/** A field of the volume, such as temperature: values beside the labels, over time. */
+export interface FieldInfo {
+  name: string;
+  kind: "grid" | "label" | "points";
+  quantity: string;
+  /** UCUM code: `Cel`. */
+  unit: string;
+  components: number;
+  medium: string;
+  /** Seconds, ascending. */
+  times: number[];
+  /** Date and time of 0 s, ISO 8601 with zone; null: unknown. */
+  epoch: string | null;
+  /** The least and the largest value of all times; null: all are missing. */
+  range: [number, number] | null;
+}
+
+/** The values of a field at a place, at all of its times; null: missing. */
+export interface FieldSeries {
+  id: string;
+  class: string;
+  name: string;
+  values: (number | null)[];
+}
+
+/** Values of a field in a component at one time; null: unknown. Volumes, in m3, with values and without. */
+export interface FieldRow {
+  id: string;
+  class: string;
+  name: string;
+  mean: number | null;
+  min: number | null;
+  max: number | null;
+  volume: number;
+  missing: number;
 }
 
 /** Values of one attribute. Null: the feature does not have it. Numbers in another unit than the first one are text. */
@@ -243,6 +282,8 @@ export interface ColorScale {
   /** Colours at equal steps from low to high, `#rrggbb`. Absent: unknown. */
   ramp?: string[];
   entries: { text: string; count: number; color?: string }[];
+  /** Further lines. Absent: none. */
+  notes?: string[];
   /** Components without a value, and their colour. */
   missing: number;
   missingColor?: string;
@@ -292,7 +333,13 @@ export const kCalls = {
   stand: call<(near: Point) => Point | null>(),
   /** The eye after a step, which glides along obstacles. */
   step: call<(eye: Point, by: Point) => Point>(),
-  /** The meaning of the colours of a scene with colorBy. */
+  /** The fields of the open `.svt`; empty for other files, and for several. */
+  fieldList: call<() => FieldInfo[]>(),
+  /** The values of a field at a place of the last picture, fractions of its size; null: nothing is there. */
+  fieldAt: call<(field: string, x: number, y: number) => FieldSeries | null>(),
+  /** The values of a field by component at one of its times, an index. */
+  fieldRows: call<(field: string, time: number) => FieldRow[]>(),
+  /** The meaning of the colours of a scene with colorBy or a field. */
   legend: call<(scene: Scene) => ColorScale>(),
   /** Longitude and latitude, degrees, of points in coordinates of the model: east and north. */
   places: call<(points: [number, number][]) => [number, number][]>(),

@@ -1,3 +1,5 @@
+import { loadTerms } from "./state/class_words";
+
 /** Loads the scripts that are otherwise fetched when they are first used, so that the page then needs no connection. */
 export async function loadLate(): Promise<void> {
   await Promise.all([
@@ -10,7 +12,11 @@ export async function loadLate(): Promise<void> {
     import("./panels/context_menu"),
     import("./panels/details"),
     import("./panels/help_dialog"),
+    import("./fields/field_choice"),
+    import("./fields/probe"),
+    import("./panels/feature_groups"),
     import("./panels/object_table"),
+    loadTerms(),
     import("./quantities/quantities_panel"),
     import("./state/bcf"),
     import("./tools/aim_layer"),

@@ -43,7 +43,7 @@ export interface Summary {
   complete: boolean;
 }
 
-/** The report of the module, beside the rows (web/wasm/compare.cpp). */
+/** The report of the module, beside the rows (web/wasm/reports/compare.cpp). */
 export interface Report {
   /** Empty: no alignment was requested. */
   aligned: "" | "moved" | "aligned" | "notFound";

@@ -15,7 +15,7 @@ import { cutsOf, listOf, numbersOf } from "./attribute_text";
 export type Attributes = (name: string) => string | null;
 
 /** The members of the view that attributes determine. */
-export type GivenView = Omit<ViewState, "camera" | "names" | "sun" | "selection" | "selectedBy" | "measured" | "custom">;
+export type GivenView = Omit<ViewState, "camera" | "names" | "sun" | "field" | "selection" | "selectedBy" | "measured" | "custom">;
 
 export interface Given {
   view: GivenView;

@@ -29,8 +29,27 @@ const kMediaTypeAt = 30;
  */
 export function needsWhole(name: string, args: readonly unknown[], hasMeshes: boolean): boolean {
   if (name === "open") return !(args[0] as readonly FileBytes[]).every(isVolume);
+  if (fieldOf(name, args) !== null || name === "fieldList") return true;
   if (name === "draw" || name === "picture" || name === "labels") return hasMeshes && (args[0] as Scene).surfaces !== "voxels";
   return name === "drawing" || name === "sheets" || name === "cityDrawing";
+}
+
+/** The field that a call shows or reads; null: none. */
+export function fieldOf(name: string, args: readonly unknown[]): string | null {
+  if (name === "fieldAt" || name === "fieldRows") return args[0] as string;
+  const isOfScene = name === "draw" || name === "picture" || name === "labels" || name === "legend";
+  return (isOfScene && (args[0] as Scene).field?.name) || null;
+}
+
+/** Bytes at the end of a `.svt` that hold its directory. */
+const kDirectoryBytes = 1 << 20;
+
+/** The bytes of a single `.svt` with fields, which its directory names; null: other files. */
+export function fieldFileOf(files: readonly FileBytes[]): ArrayBuffer | null {
+  const [only] = files;
+  if (files.length !== 1 || !only || !isVolume(only)) return null;
+  const directory = new TextDecoder("latin1").decode(only.bytes.slice(Math.max(0, only.bytes.byteLength - kDirectoryBytes)));
+  return directory.includes("fields.json") ? only.bytes : null;
 }
 
 function isVolume({ bytes }: FileBytes): boolean {
@@ -59,7 +78,7 @@ export function makeCall(svt: SvtModule, name: string, args: readonly unknown[])
 }
 
 export function hasWords(scene: Scene): boolean {
-  const hasLegend = scene.colorBy && scene.legend !== false;
+  const hasLegend = (scene.colorBy || scene.field) && scene.legend !== false;
   return Boolean(scene.names?.length || scene.title || hasLegend || scene.scaleBar || scene.northArrow);
 }
 

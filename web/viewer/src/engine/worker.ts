@@ -1,6 +1,6 @@
 /** The worker: owns the library and the open volume, and answers the page's requests in order. */
 import type { SvtModule } from "../../../../build/web/svt_view.js";
-import { json, makeCall, needsFont, needsWhole, openFiles } from "./calls";
+import { fieldFileOf, fieldOf, json, makeCall, needsFont, needsWhole, openFiles } from "./calls";
 import { Drawer } from "./drawer";
 import { isEngineError } from "./errors";
 import { loadModule, loadWhole, prepareWhole } from "./module";
@@ -23,6 +23,10 @@ let opened: {
   owners: Calls["owners"]["args"] | null;
   hasMeshes: boolean;
 } | null = null;
+
+/** The open `.svt`, if it has fields, and the field that the module has read; empty: none. */
+let fieldFile: ArrayBuffer | null = null;
+let openField = "";
 
 let drawer: Drawer | null = null;
 /** Id of the current request. */
@@ -64,6 +68,16 @@ async function adopt(svt: SvtModule): Promise<void> {
   loaded = Promise.resolve(svt);
   isWhole = true;
   opened = null;
+  openField = "";
+}
+
+/** Reads a field that a call needs, unless the module has it. */
+function readField(svt: SvtModule, field: string | null): void {
+  if (field === null || field === openField) return;
+  if (!fieldFile) throw { code: "E904", message: `the open model has no field '${field}'` } satisfies EngineError;
+  openField = "";
+  svt.call("fieldOpen", [field], new Uint8Array(fieldFile));
+  openField = field;
 }
 
 async function answer(request: Request): Promise<void> {
@@ -74,6 +88,7 @@ async function answer(request: Request): Promise<void> {
   const isTooMuch = !isWhole && needsWhole(name, args, opened?.hasMeshes ?? false);
   if (isTooMuch && name !== "open") await continueInWhole(name);
   const svt = await loaded;
+  readField(svt, fieldOf(name, args));
   switch (name) {
     case "start":
       drawer = new Drawer(svt, args[0]);
@@ -83,10 +98,17 @@ async function answer(request: Request): Promise<void> {
       // If this fails, the open volume stays.
       const info = openFiles(own, ...args);
       drawerOf(svt).forgetPicture();
+      fieldFile = fieldFileOf(args[0]);
+      openField = "";
       if (own !== svt) await adopt(own);
       else if (!isWhole) opened = { files: args[0], options: args[1], owners: null, hasMeshes: info.hasMeshes };
-      return post({ id, result: info });
+      return post({ id, result: fieldFile ? { ...info, hasFields: true } : info });
     }
+    case "fieldList":
+      return post({ id, result: fieldFile ? json(svt.call(name, [], new Uint8Array(fieldFile))) : [] });
+    case "fieldAt":
+    case "fieldRows":
+      return post({ id, result: json(svt.call(name, args.slice(1))) });
     case "draw": {
       const drawn = await drawerOf(svt).draw(...args);
       return post({ id, result: drawn }, [drawn.bitmap]);

@@ -15,7 +15,19 @@ export interface OpenSettings extends OpenOptions {
 
 /** Calls that need a picture on a screen, or that only the page makes. */
 type NotHere =
-  "pick" | "along" | "stand" | "step" | "places" | "cityInfo" | "prepare" | "movedPlanes" | "findInAttributes" | "attributeValues";
+  | "pick"
+  | "along"
+  | "stand"
+  | "step"
+  | "places"
+  | "cityInfo"
+  | "prepare"
+  | "movedPlanes"
+  | "findInAttributes"
+  | "attributeValues"
+  | "fieldList"
+  | "fieldAt"
+  | "fieldRows";
 
 /** Rejected promises carry an SvtError: a code and a message. */
 export interface Volume extends Omit<LibraryCalls, NotHere> {

@@ -29,7 +29,7 @@ export class ColorLegend extends Part {
     const missing = scale.missing ? this.row(t("legendMissing", { n: scale.missing }), scale.missingColor) : nothing;
     return html`<strong id="color-title">${scale.title}</strong>
       <ul id="color-scale" aria-label="${t("legend")}: ${scale.title}">
-        ${scale.isRamp ? this.ramp(scale) : scale.entries.map(({ text, count, color }) => this.row(`${text}: ${count}`, color))}${missing}</ul>${cover ? html`<p class="cover">${cover}</p>` : nothing}`;
+        ${scale.isRamp ? this.ramp(scale) : scale.entries.map(({ text, count, color }) => this.row(`${text}: ${count}`, color))}${missing}${(scale.notes ?? []).map((note) => html`<li class="ramp">${note}</li>`)}</ul>${cover ? html`<p class="cover">${cover}</p>` : nothing}`;
   }
 
   private ramp({ low, high, ramp = [] }: ColorScale) {

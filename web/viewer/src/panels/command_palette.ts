@@ -3,6 +3,7 @@
 import { css, html, nothing } from "lit";
 import type { Action } from "../actions";
 import { lateText } from "../late_texts";
+import { moreActions } from "../more_actions";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
 import { keyText } from "./key_text";
@@ -47,7 +48,7 @@ export class CommandPalette extends Part {
   }
 
   async show(actions: readonly Action[]): Promise<void> {
-    this.actions = actions.filter(({ id, isEnabled }) => id !== "palette" && (isEnabled?.() ?? true));
+    this.actions = [...actions, ...moreActions(this.session)].filter(({ id, isEnabled }) => id !== "palette" && (isEnabled?.() ?? true));
     this.search = "";
     this.active = 0;
     await this.updateComplete;

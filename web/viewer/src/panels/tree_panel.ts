@@ -22,7 +22,6 @@ import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
 import { eyeOf } from "./eye";
 import { kindOf } from "./feature_path";
-import "./feature_groups";
 import { askForMenu, isMenuKey } from "./menu_request";
 import { firstOpen, rowsOf, type Rows } from "./tree_rows";
 
@@ -78,7 +77,9 @@ export class TreePanel extends Part {
   static override styles = [
     controls,
     css`
-      :host { display: flex; flex-direction: column; height: 100%; min-height: 0; font-size: 13px; }
+      :host { display: flex; flex-direction: column; height: 100%; min-height: 0; font-size: 13px; container-type: size; }
+      /* Above a tool and the selection, the list comes first. */
+      @container (max-height: 300px) { footer { display: none; } }
       header { padding: 10px 10px 8px; display: grid; gap: 8px; }
       .segments { margin-right: var(--sheet-close, 0); }
       form { display: grid; grid-template-columns: 1fr auto; gap: 6px; }
@@ -214,11 +215,7 @@ export class TreePanel extends Part {
         }
       </header>
       <div id="panel" class="list" role="tabpanel" aria-labelledby="tab-${this.tab}" tabindex="-1" @scroll=${this.scrolled}>
-        ${
-          this.tab === "structure"
-            ? this.tree()
-            : html`<svt-groups .session=${session} .counts=${this.counts} .edited=${this.edited?.query ?? ""} @svt-edit=${this.editGroup}></svt-groups>`
-        }
+        ${this.tab === "structure" ? this.tree() : this.groups()}
       </div>
       <footer>
         ${this.edited ? this.editor(this.edited) : nothing}
@@ -395,6 +392,11 @@ export class TreePanel extends Part {
     const { index } = this.session.volume;
     const { id } = index.features[i]!;
     return isGroupOfParts(index, i) ? ofSubtree(id) : ofId(id);
+  }
+
+  private groups() {
+    void import("./feature_groups").catch((error: unknown) => this.session.messages.fail(error));
+    return html`<svt-groups .session=${this.session} .counts=${this.counts} .edited=${this.edited?.query ?? ""} @svt-edit=${this.editGroup}></svt-groups>`;
   }
 
   private readonly editGroup = ({ detail: { query, name, like } }: CustomEvent<{ query: string; name: string; like: number[] }>): void => {

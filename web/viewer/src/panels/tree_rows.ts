@@ -1,7 +1,6 @@
 /** Expanded or matching rows of the tree: indices into the feature index, in tree order. */
 
 import { classWords } from "../state/class_words";
-import { language } from "../texts";
 import { isStorey } from "./feature_path";
 import { ancestors, labelOf, type FeatureIndex } from "../state/feature_index";
 
@@ -63,22 +62,21 @@ function inOrder(index: FeatureIndex, isOpen: (i: number) => boolean, isKept: (i
   return shown;
 }
 
-const kKnown = new Map<string, string>();
-
-/** Class, type, and words for both; most features share them. */
-function wordsOf({ class: name, type = "" }: { class: string; type?: string }): string {
-  const key = `${language()} ${name} ${type}`;
-  let words = kKnown.get(key);
-  if (words === undefined) kKnown.set(key, (words = `${name} ${type} ${classWords(name, type)}`));
+/** Class, type, and words for both; most features share them. @param known  of the present search */
+function wordsOf({ class: name, type = "" }: { class: string; type?: string }, known: Map<string, string>): string {
+  const key = `${name} ${type}`;
+  let words = known.get(key);
+  if (words === undefined) known.set(key, (words = `${key} ${classWords(name, type)}`));
   return words;
 }
 
 /** Features whose name, class, type (also as words of a language) or id contains all the words, with their ancestors. */
 function found(index: FeatureIndex, words: string[], also: ReadonlySet<number>): Rows {
   const kept = new Set<number>();
+  const known = new Map<string, string>();
   let matches = 0;
   index.features.forEach((feature, i) => {
-    const text = `${labelOf(feature)} ${wordsOf(feature)} ${feature.id}`.toLowerCase();
+    const text = `${labelOf(feature)} ${wordsOf(feature, known)} ${feature.id}`.toLowerCase();
     if (!also.has(i) && !words.every((word) => text.includes(word))) return;
     ++matches;
     kept.add(i);

@@ -4,7 +4,7 @@ import type { Cell, Column } from "../panels/table_rows";
 import { language, number } from "../texts";
 import { columnText, trustText } from "./texts";
 
-/** A table of the module (web/wasm/quantities.cpp). */
+/** A table of the module (web/wasm/reports/quantities.cpp). */
 export interface Table {
   /** Names as in the files of `svt quantities`. */
   columns: string[];

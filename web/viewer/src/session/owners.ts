@@ -18,8 +18,8 @@ export class Owners extends ViewPart {
     const unknown = await engine.owners(table.slice(0), file);
     this.table = table;
     this.file = file;
-    if (this.view.state.colorBy === "owner") this.view.recolor();
-    else this.view.set({ colorBy: "owner" });
+    if (this.view.state.colorBy === "owner" && !this.view.state.field) this.view.recolor();
+    else this.view.set({ colorBy: "owner", field: null });
     const given = t("ownersGiven", { name: file });
     const [first] = unknown;
     this.messages.tell(

@@ -144,7 +144,7 @@ export class ShownPicture extends ViewPart {
     this.scaledData = dataRevision;
     const { engine } = this.volume;
     const legend = async () => engine!.legend(await this.view.composed(this.view.size));
-    const scale = state.colorBy && engine ? await legend().catch(() => null) : null;
+    const scale = (state.colorBy || state.field) && engine ? await legend().catch(() => null) : null;
     if (this.scaled === state && JSON.stringify(scale) !== JSON.stringify(this.scale)) this.scale = scale;
   }
 }

@@ -131,7 +131,7 @@ export class View extends Observable {
     if (isOnScreen && !this.showsFaces) described.scene.surfaces = "voxels";
     if (isOnScreen) {
       // The page has its own legend, whose text does not depend on the number of pixels.
-      if (this.hasSwitches && state.colorBy && !state.custom) described.scene.legend = false;
+      if (this.hasSwitches && (state.colorBy || state.field) && !state.custom) described.scene.legend = false;
       this.ground?.show(described.scene, state, this.volume);
     }
     // Tiles of a city fit the pixels. Levels of detail of the tiles would cost time and memory without benefit.
@@ -151,13 +151,14 @@ export class View extends Observable {
 
   /** Whether selected features are tinted: not in effects, and not over colours that have a meaning. */
   private get isTinted(): boolean {
-    const { effect, colorBy, custom, selection } = this.state;
+    const { effect, colorBy, field, custom, selection } = this.state;
     return (
       this.mark !== "" &&
       selection !== this.untinted &&
       selection.length > 0 &&
       (effect === "none" || effect === "lens") &&
       !colorBy &&
+      !field &&
       !custom
     );
   }
@@ -443,6 +444,7 @@ const kStepNames: Partial<Record<keyof ViewState, TextKey>> = {
   colorBy: "colorBy",
   picture: "picture",
   sun: "look",
+  field: "colorBy",
   hatches: "hatches",
   measured: "measure",
   custom: "sceneJson",

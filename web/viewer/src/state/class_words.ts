@@ -1,7 +1,25 @@
 /** Words for classes of building models and types of IFC: to show, and for a search in the page's language. */
 
-import { kClassTerms } from "../generated/class_terms";
+import { signal } from "../observable";
 import { language, otherTexts } from "../texts";
+
+type Terms = Readonly<Record<string, readonly [english: string, german: string]>>;
+
+/** The words of the library, which come when they are first needed; null: not yet. */
+const terms = signal<Terms | null>(null);
+
+/** Resolves when the words are there, or cannot be loaded. */
+export async function loadTerms(): Promise<void> {
+  terms.value ??= await import("../generated/class_terms").then(
+    ({ kClassTerms }) => kClassTerms,
+    () => null,
+  );
+}
+
+function termOf(name: string): readonly [english: string, german: string] | undefined {
+  if (!terms.value) void loadTerms();
+  return terms.value?.[bareName(name)];
+}
 
 /** The name in the tables of words: without its namespace, the prefix Ifc, and the endings of IFC for the same thing. */
 function bareName(name: string): string {
@@ -15,7 +33,7 @@ function bareName(name: string): string {
 export function classText(name: string): string {
   const other = otherTexts()?.classes;
   if (other) return other[name] ?? other[bareName(name)] ?? name;
-  return (language() === "de" ? kClassTerms[bareName(name)]?.[1] : undefined) ?? name;
+  return (language() === "de" ? termOf(name)?.[1] : undefined) ?? name;
 }
 
 /** More words, for a search. */
@@ -48,9 +66,9 @@ const kWords: [pattern: RegExp, german: string, english: string][] = [
 export function classWords(className: string, type = ""): string {
   const isFor = (pattern: RegExp) => pattern.test(className) || pattern.test(type);
   const words = kWords.filter(([pattern]) => isFor(pattern)).map(([, german, english]) => `${german} ${english}`);
-  const terms = [className, type].flatMap((name) => kClassTerms[bareName(name)] ?? []);
+  const listed = [className, type].flatMap((name) => termOf(name) ?? []);
   const own = Object.entries(otherTexts()?.classes ?? {})
     .filter(([name]) => className.includes(name) || type.includes(name))
     .map(([, word]) => word);
-  return [...words, ...terms, ...own].join(" ");
+  return [...words, ...listed, ...own].join(" ");
 }

@@ -79,7 +79,7 @@ function withoutSolidRooms(state: ViewState, index: FeatureIndex): Partial<ViewS
 
 /** The change of the view if the user chooses a key. @param key  empty: no colours */
 export function coloredBy(state: ViewState, key: string, keys: ColorKeys, index: FeatureIndex): Partial<ViewState> {
-  const before = withoutSolidRooms(state, index);
+  const before: Partial<ViewState> = { ...withoutSolidRooms(state, index), field: null };
   const chosen = [...keys.own, ...keys.attributes].find((one) => one.key === key);
   if (!chosen || chosen.spaces === "none") return { ...before, colorBy: key };
   return { ...before, ...withSolidRooms({ ...state, ...before }, key, index, chosen.spaces === "only") };

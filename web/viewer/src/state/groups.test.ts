@@ -145,7 +145,7 @@ describe("colours by value", () => {
     expect([volume.colorBy, volume.show, volume.hide]).toEqual(["volume", [], ["class=BuildingUnit"]]);
     const after = { ...volume, ...coloredBy(volume, "", keys, house) };
     expect({ ...after, hide: after.hide.sort() }).toEqual({ ...start, hide: start.hide.sort() });
-    expect(coloredBy(start, "material", keys, house)).toEqual({ colorBy: "material" });
+    expect(coloredBy(start, "material", keys, house)).toEqual({ colorBy: "material", field: null });
   });
 });
 

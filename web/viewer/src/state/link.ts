@@ -116,6 +116,7 @@ const kNullable: Record<string, string> = {
 };
 
 function isLike(initial: unknown, given: unknown, key: string): boolean {
+  if (key === "field") return given === null || isField(given);
   if (key === "sun") return given === null || isSun(given);
   if (key in kNullable) return given === null || (typeof given === kNullable[key] && (key !== "camera" || isCamera(given)));
   if (key === "measured") return Array.isArray(given) && given.every(isPoint);
@@ -128,6 +129,24 @@ function isLike(initial: unknown, given: unknown, key: string): boolean {
       Object.entries(initial).every(([k, v]) => typeof (given as Record<string, unknown>)[k] === typeof v)
     );
   return typeof given === typeof initial;
+}
+
+/** Whether a link's field has the right types; the library checks values. */
+function isField(given: unknown): boolean {
+  if (typeof given !== "object" || given === null) return false;
+  const { name, time, range, isolines, map, per } = given as Record<string, unknown>;
+  const isNumber = (value: unknown) => value === undefined || Number.isFinite(value);
+  const isChoice = (member: "/field/map" | "/field/per", value: unknown) => value === undefined || isValueOf(member, value);
+  const isRange = range === undefined || (Array.isArray(range) && range.length === 2 && range.every(Number.isFinite));
+  return (
+    typeof name === "string" &&
+    name !== "" &&
+    isNumber(time) &&
+    isNumber(isolines) &&
+    isRange &&
+    isChoice("/field/map", map) &&
+    isChoice("/field/per", per)
+  );
 }
 
 const isPoint = (p: unknown) => Array.isArray(p) && p.length === 3 && p.every(Number.isFinite);

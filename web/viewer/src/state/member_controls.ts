@@ -30,6 +30,9 @@ export const kRanges = {
   // The member has both numbers, of which the first is up to 90 degrees.
   latitude: { member: "/sun/place", step: 0.0001, minimum: -90, maximum: 90 },
   longitude: { member: "/sun/place", step: 0.0001 },
+  // Their numbers are of any size, by the unit of the field; the controls take any step.
+  fieldLines: { member: "/field/isolines", step: 1 },
+  fieldEnd: { member: "/field/range", step: 1 },
 } as const satisfies Record<string, MemberRange>;
 
 /** The values that a control offers. */

@@ -128,7 +128,8 @@ export function sceneOf(
   if (state.hatches !== null) scene.hatches = { show: state.hatches };
   const named = [...state.named, ...(state.names ? (state.selectedBy ? [state.selectedBy] : joined(state.selection.map(ofId))) : [])];
   if (named.length) scene.names = named;
-  if (state.colorBy) scene.colorBy = state.colorBy;
+  if (state.field) scene.field = state.field;
+  else if (state.colorBy) scene.colorBy = state.colorBy;
   Object.assign(scene, state.picture);
   if (state.sun) scene.sun = state.sun;
   if (!camera.parallel) delete scene.scaleBar;

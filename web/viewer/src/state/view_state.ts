@@ -84,6 +84,8 @@ export interface ViewState {
   picture: Partial<Pick<Scene, PlainMember>>;
   /** Light by the sun, with shadows; null: light beside the camera. */
   sun: NonNullable<Scene["sun"]> | null;
+  /** A field of the volume as colours, in place of `colorBy`; null: none. */
+  field: NonNullable<Scene["field"]> | null;
   /** Ids. */
   selection: string[];
   /** The query that selected them; empty: they were selected one by one. */
@@ -116,6 +118,7 @@ export function initialState(look: Look = kSceneMembers["/look"].default): ViewS
     colorBy: "",
     picture: {},
     sun: null,
+    field: null,
     selection: [],
     selectedBy: "",
     measured: [],

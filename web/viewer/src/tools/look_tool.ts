@@ -50,11 +50,17 @@ export class LookTool extends Part {
         <label class="check" title=${help("/surfaces")}><input type="checkbox" id="exact-surfaces" ?disabled=${!hasMeshes} .checked=${hasMeshes && surfaces !== "voxels"} @change=${(e: Event) => session.view.set({ surfaces: (e.target as HTMLInputElement).checked ? null : "voxels" })} />${t("exactSurfaces")}</label>
       </div>
       ${colorChoice(session)}
+      ${session.volume.info?.hasFields ? this.fields() : nothing}
       <svt-sun-choice .session=${session}></svt-sun-choice>
       ${session.volume.isServerOnly ? nothing : html`<button id="basemap" aria-expanded=${this.isBasemapShown} @click=${() => void this.toggleBasemap()}>${toolText("basemap")}</button>`}
       ${this.isBasemapShown ? html`<svt-basemap .session=${session}></svt-basemap>` : nothing}
       ${kPlainMembers.map((name) => plainControl(name, picture[name.slice(1) as PlainMember], (value) => session.view.set({ picture: withMember(picture, name, value) })))}
     `;
+  }
+
+  private fields() {
+    void import("../fields/field_choice").catch((error: unknown) => this.session.messages.fail(error));
+    return html`<svt-field .session=${this.session}></svt-field>`;
   }
 
   private async toggleBasemap(): Promise<void> {

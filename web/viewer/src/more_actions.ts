@@ -1,16 +1,29 @@
-/** Actions that change the look of the picture: the choices of the tools Look and Highlight, without their sliders. */
+/**
+ * Actions without keys, for the list of actions only: the choices of the tools *Look* and *Highlight*, colours by each key, and
+ * sections at the storeys. A district has thousands of them.
+ */
 
 import type { Action } from "./actions";
 import { kSceneMembers, type DeclaredMember } from "./generated/scene_members";
 import type { Session } from "./session";
+import { coloredBy, colorKeys } from "./state/color_keys";
 import { kPlainMembers, type PlainMember } from "./state/member_controls";
 import { withMember } from "./state/view_state";
-import { memberLabel, t } from "./texts";
+import { memberLabel, t, type TextKey } from "./texts";
+import { cutStorey, levelsOf } from "./tools/section_tool";
 
 const kLines = ["off", ...kSceneMembers["/passes/*/lines/*/hidden"].choices] as const;
 const kShells = ["off", ...kSceneMembers["/passes/*/shell"].choices] as const;
 
-export function lookActions({ view, volume }: Session): Action[] {
+const kMostStoreys = 200;
+const kMostAttributes = 100;
+
+/** None without a model. */
+export function moreActions(session: Session): Action[] {
+  return session.volume.info ? [...lookActions(session), ...colorActions(session), ...storeyActions(session)] : [];
+}
+
+function lookActions({ view, volume }: Session): Action[] {
   const hasMeshes = () => !volume.isCity && (volume.info?.hasMeshes ?? false);
   const look = (id: string, text: () => string, run: () => void, isEnabled?: () => boolean): Action => ({
     id,
@@ -69,4 +82,39 @@ export function lookActions({ view, volume }: Session): Action[] {
         );
       }),
   ];
+}
+
+/** Colours by each key. */
+function colorActions({ model, view, volume }: Session): Action[] {
+  const { info, index } = volume;
+  if (!info) return [];
+  const keys = colorKeys(info, index, model.owners.file !== "");
+  const action = (key: string, name: string): Action => ({
+    id: `color-${key}`,
+    text: () => `${t("colorBy")}: ${name}`,
+    icon: "look",
+    run: () => view.set(coloredBy(view.state, key, keys, index)),
+  });
+  return [
+    ...keys.own.map(({ key }) => action(key, t(`key_${key}` as TextKey))),
+    ...keys.attributes.slice(0, kMostAttributes).map(({ key }) => action(key, key)),
+    {
+      id: "color-none",
+      text: () => `${t("colorBy")}: ${t("colorByNothing")}`,
+      icon: "look",
+      run: () => view.set(coloredBy(view.state, "", keys, index)),
+    },
+  ];
+}
+
+/** Sections at the storeys. */
+function storeyActions({ volume, view }: Session): Action[] {
+  return levelsOf(volume.info?.storeys ?? [])
+    .slice(0, kMostStoreys)
+    .map(({ name, floor }, n) => ({
+      id: `storey-${n}`,
+      text: () => t("storeyCut", { name }),
+      icon: "section",
+      run: () => cutStorey(view, floor),
+    }));
 }

@@ -2,7 +2,7 @@
 /// \file
 /// The module of reports: comparisons and quantities. It reads the files itself, and has no renderer.
 
-#include "calls.hpp"
+#include <web/wasm/calls.hpp>
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/progress.hpp>
