@@ -33,7 +33,8 @@ describe("start", () => {
     t.diagnostic(`own ${own}, worker ${worker}, modules ${views} and ${wholes} bytes, compressed`);
     assert.ok(own <= 300_000, `own scripts and styles: ${own} bytes compressed, at most 300000`);
     assert.ok(first <= 1_200_000, `the start of a visit: ${first} bytes compressed, at most 1200000`);
-    assert.ok(Math.max(...wholes) <= 1_750_000, `the whole module: ${wholes} bytes compressed, at most 1750000`);
+    // It also reads models, makes drawings and sheets, and shows fields. It comes after the first fine picture.
+    assert.ok(Math.max(...wholes) <= 1_850_000, `the whole module: ${wholes} bytes compressed, at most 1850000`);
   });
 
   it("keeps the budget of bytes of comparisons and quantities, which no visit begins with", (t) => {
