@@ -252,6 +252,9 @@ struct BeyondOptions {
 struct BuildingLevel;  // building_levels.hpp
 class DrawingTables;   // drawing_tables.hpp
 
+/// Area in m2 below which finished drawings leave out polygons: slivers between voxels.
+inline constexpr double kSliverArea = 1e-4;
+
 struct SectionOptions {
     std::vector<std::string> show;  ///< queries; only labels that one of them selects are drawn; empty: all
     std::vector<std::string> hide;  ///< queries; labels that one of them selects are omitted

@@ -115,7 +115,7 @@ Result<Reply> places(const Arguments& arguments) {
 }
 
 // (scene) -> the meaning of the colours of its colorBy or its field: {title, isRamp, low, high, ramp: [color],
-// entries: [{text, count, color}], missing, missingColor}; the colours of a ramp are at equal steps
+// entries: [{text, count, color}], notes, hasUnknown, missing, missingColor}; the colours of a ramp are at equal steps
 Result<Reply> legend(const Arguments& arguments) {
     SVT_TRY(scene, arguments.scene(0));
     illustrate::ColorScale scale;
@@ -140,6 +140,7 @@ Result<Reply> legend(const Arguments& arguments) {
                       {"ramp", std::move(ramp)},
                       {"entries", std::move(entries)},
                       {"notes", scale.notes},
+                      {"hasUnknown", !scale.missingText.empty()},
                       {"missing", scale.missing},
                       {"missingColor", image::colorText(illustrate::missingColor())}}
                      .dump());

@@ -28,6 +28,7 @@ Result<Reply> drawing(const Arguments& arguments) {
     SVT_TRY(plane, drawing::parseSectionPlane(arguments.text(0), volume));
     const Json& wanted = arguments.at(2);
     drawing::SectionOptions options;
+    options.smallestArea = drawing::kSliverArea;
     options.beyond.visible = wanted.is_object() && wanted.value("beyond", false);
     options.beyond.above = wanted.is_object() && wanted.value("above", false);
     options.dimensions = wanted.is_object() && wanted.value("dimensions", false);
@@ -40,7 +41,9 @@ Result<Reply> drawing(const Arguments& arguments) {
 Result<Reply> cityDrawing(const Arguments& arguments) {
     const Progress progress = progressOfPage();
     const auto most = static_cast<std::uint64_t>(std::max(0.0, arguments.number(2)));
-    const auto section = openCity().cut(arguments.text(0), drawing::SectionOptions{}, most, &progress);
+    drawing::SectionOptions options;
+    options.smallestArea = drawing::kSliverArea;
+    const auto section = openCity().cut(arguments.text(0), options, most, &progress);
     const Json needs = neededBytes();
     if (!section) return needs.is_null() ? Result<Reply>(section.error()) : Reply(needs.dump());
     SVT_DO(checkDrawn(section->drawing, arguments.text(0)));

@@ -46,7 +46,7 @@ struct SectionArguments {
     bool revisions = false, json = false, verbose = false;
     pipeline::BuildOptions build;
 
-    SectionArguments() { section.smallestArea = 1e-4; }
+    SectionArguments() { section.smallestArea = drawing::kSliverArea; }
 };
 
 Result<drawing::SectionPlane> planeOf(const SectionArguments& arguments, const volume::SemanticVolume& volume) {

@@ -126,7 +126,7 @@ Result<LineView> drawLineView(const volume::SemanticVolume& volume, const render
             if (model::isSpace(volume.labels.labels[l].className)) isCut[l] = 0;
         SectionOptions section;
         section.threads = options.threads;
-        section.smallestArea = 1e-4;
+        section.smallestArea = kSliverArea;
         SVT_TRY(drawing, drawLabels(volume, nullptr, **plane, isCut, section, tables));
         view.drawing = std::move(*drawing);
         eye.hasCut = true;

@@ -61,7 +61,7 @@ Result<std::vector<drawing::SectionDrawing>> drawBefore(const drawing::SheetSet&
         std::vector<std::string> ignored;  // results of queries that only the new state has
         drawing::SectionOptions options;
         options.hide = set.hide;
-        options.smallestArea = 1e-4;
+        options.smallestArea = drawing::kSliverArea;
         options.threads = ownThreads;
         options.beyond = views[n].beyond;
         options.tables = &tables;
@@ -102,7 +102,7 @@ Result<SheetContent> drawSheets(drawing::SheetSet& set, const volume::SemanticVo
         const drawing::SheetView& view = chosen->views[n];
         drawing::SectionOptions options;
         options.hide = set.hide;
-        options.smallestArea = 1e-4;
+        options.smallestArea = drawing::kSliverArea;
         options.threads = ownThreads;
         options.beyond = view.beyond;
         options.dimensions = view.kind != drawing::ViewKind::Elevation && set.dimensions;

@@ -331,6 +331,11 @@ describe("the sun", () => {
     );
     await visit.page.keyboard.press("ArrowRight");
     await eventually(async () => assert.match((await state()).sun.time, /-06-21 15:15$/));
+    await visit.page.getByRole("slider", { name: "Day", exact: true }).focus();
+    await visit.page.keyboard.press("ArrowRight");
+    await eventually(async () => assert.match((await state()).sun.time, /-06-22 15:15$/));
+    await visit.page.keyboard.press("ArrowLeft");
+    await eventually(async () => assert.match((await state()).sun.time, /-06-21 15:15$/));
     const scene = await inPage("s.view.composed([320, 200])");
     assert.match(scene.sun.time, /15:15$/);
     await eventually(async () => assert.match(visit.page.url(), /view=/));

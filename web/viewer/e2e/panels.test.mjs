@@ -85,6 +85,23 @@ describe("attributes", () => {
     await list().locator("#filter").fill("");
   });
 
+  it("name what the object touches, in buttons that select", async () => {
+    await choose("Hidden beam");
+    const { neighbours } = await inPage("s.selection.properties");
+    assert.ok(neighbours.length > 1);
+    const shown = await visit.page.locator("svt-properties ul li").allInnerTexts();
+    for (const { name, id } of neighbours.filter(({ name }) => name)) {
+      assert.ok(
+        shown.some((text) => text.includes(name)),
+        `${name}: ${shown}`,
+      );
+      assert.ok(!shown.some((text) => text.includes(id)), id);
+    }
+    const first = neighbours.find(({ name, id }) => name && id);
+    await visit.page.locator("svt-properties").getByRole("button", { name: first.name }).first().click();
+    assert.deepEqual((await state()).selection, [first.id]);
+  });
+
   it("know where the object is, in buttons that select", async () => {
     await open({}, "tower");
     await inPage("s.selection.select([s.volume.index.features.find((f) => f.class === 'BuildingRoom').id])");
@@ -222,6 +239,34 @@ describe("context menus", () => {
     const { selection } = await state();
     const ground = svtJson("query", at("house.svt"), `under "${await idOf("Ground floor")}"`, "--json").map(({ id }) => id);
     assert.deepEqual(selection.toSorted(), ground.toSorted());
+  });
+
+  it("zoom to the object, and show only it", async () => {
+    const row = visit.page.getByRole("treeitem", { name: /Entrance door/ });
+    await row.click({ button: "right" });
+    const id = await idOf("Entrance door");
+    const before = (await state()).camera;
+    await item(/^Zoom to it/).click();
+    const { low, high } = await inPage("s.volume.engine.properties(v).then(({ box }) => box)", id);
+    await eventually(async () => {
+      const { target } = (await state()).camera;
+      assert.ok(
+        target.every((x, i) => x >= low[i] - 0.1 && x <= high[i] + 0.1),
+        `${target}, the door is from ${low} to ${high}`,
+      );
+    });
+    assert.notDeepEqual((await state()).camera, before);
+    await row.click({ button: "right" });
+    await item(/^Only this/).click();
+    assert.deepEqual((await state()).show, [`under "${id}"`]);
+    await settled();
+    await row.click({ button: "right" });
+    await item(/^Show all/).click();
+    assert.deepEqual((await state()).show, []);
+    assert.deepEqual(
+      (await state()).hide,
+      await inPage("[...s.volume.index.classes.keys()].filter((name) => /Room/.test(name)).map((name) => 'class=' + name)"),
+    );
   });
 
   it("open by a long press", async () => {

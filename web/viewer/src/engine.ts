@@ -284,6 +284,8 @@ export interface ColorScale {
   entries: { text: string; count: number; color?: string }[];
   /** Further lines. Absent: none. */
   notes?: string[];
+  /** Whether places without a value have missingColor. Absent: no. */
+  hasUnknown?: boolean;
   /** Components without a value, and their colour. */
   missing: number;
   missingColor?: string;

@@ -14,7 +14,7 @@ import { startTheme, theme } from "./ui/theme";
 import type { Engine, EngineError } from "./engine";
 
 /** Milliseconds after which the components load even without a first picture. */
-const kComponentsAfter = 1500;
+const kComponentsAfter = 10_000;
 
 const session = new Session();
 session.address.keep();

@@ -4,6 +4,7 @@ import { css, html, nothing } from "lit";
 import { coverText } from "../city/cover";
 import type { ColorScale } from "../engine";
 import { number, t } from "../texts";
+import { toolText } from "../tool_texts";
 import { Part } from "../ui/part";
 
 /** Decimals of the ends of a ramp. */
@@ -26,10 +27,11 @@ export class ColorLegend extends Part {
     const { scale } = this.session.picture;
     if (!scale) return nothing;
     const cover = coverText(this.session);
+    const unknown = scale.hasUnknown ? this.row(toolText("noValue"), scale.missingColor) : nothing;
     const missing = scale.missing ? this.row(t("legendMissing", { n: scale.missing }), scale.missingColor) : nothing;
     return html`<strong id="color-title">${scale.title}</strong>
       <ul id="color-scale" aria-label="${t("legend")}: ${scale.title}">
-        ${scale.isRamp ? this.ramp(scale) : scale.entries.map(({ text, count, color }) => this.row(`${text}: ${count}`, color))}${missing}${(scale.notes ?? []).map((note) => html`<li class="ramp">${note}</li>`)}</ul>${cover ? html`<p class="cover">${cover}</p>` : nothing}`;
+        ${scale.isRamp ? this.ramp(scale) : scale.entries.map(({ text, count, color }) => this.row(`${text}: ${count}`, color))}${unknown}${missing}${(scale.notes ?? []).map((note) => html`<li class="ramp">${note}</li>`)}</ul>${cover ? html`<p class="cover">${cover}</p>` : nothing}`;
   }
 
   private ramp({ low, high, ramp = [] }: ColorScale) {

@@ -133,7 +133,7 @@ export class PropertiesPanel extends Part {
           ? html`<h3>${t("neighbours")}</h3><ul>${p.neighbours.map((n) =>
               n.id === ""
                 ? html`<li class="outside"><span>${t("outside")}</span><span>${number(n.area, 2)} m²</span></li>`
-                : html`<li><button @click=${() => this.session.selection.select([n.id])}><span>${nameOf(index, n)} <span class="quiet">${typeOf(index, n)}</span></span><span>${number(n.area, 2)} m²</span></button></li>`,
+                : html`<li><button @click=${() => this.session.selection.select([n.id])}><span>${nameOf(index, n)} <span class="quiet">${classText(typeOf(index, n))}</span></span><span>${number(n.area, 2)} m²</span></button></li>`,
             )}</ul>`
           : nothing
       }

@@ -30,7 +30,7 @@ const kMostChips = 14;
 
 /** Storeys, or levels that the model does not name. Storeys of several buildings with the same name and height are one entry. */
 export function levelsOf(storeys: VolumeInfo["storeys"]): { name: string; floor: number }[] {
-  const levels = storeys.map(({ name, id, floor }) => ({ name: name || id || t("level", { height: number(floor, 2) }), floor }));
+  const levels = storeys.map(({ name, id, floor }) => ({ name: name || id || toolText("level", { height: number(floor, 2) }), floor }));
   const once = levels.filter(
     ({ name, floor }, n) => levels.findIndex((other) => other.name === name && Math.abs(other.floor - floor) < 0.05) === n,
   );
@@ -111,14 +111,14 @@ export class SectionTool extends Part {
     if (!info) return nothing;
     if (isCity) return html`<p class="quiet small">${toolText("cityDrawings")}</p>`;
     const lacks = !info.hasMeshes;
-    return html`<div class="row small drawings" role="group" aria-label=${t("drawnToo")}><span class="quiet grow">${t("drawnToo")}</span>${kParts.map(
+    return html`<div class="row small drawings" role="group" aria-label=${toolText("drawnToo")}><span class="quiet grow">${toolText("drawnToo")}</span>${kParts.map(
       ([
         part,
         text,
       ]) => html`<label class="check"><input type="checkbox" id="draw-${part}" ?disabled=${lacks && part !== "dimensions"} .checked=${this.parts[part]}
         @change=${(e: Event) => {
           this.parts = { ...this.parts, [part]: (e.target as HTMLInputElement).checked };
-        }} />${t(text)}</label>`,
+        }} />${toolText(text)}</label>`,
     )}</div>
     <div class="row"><button id="draw-sheets" title=${toolText("sheetsHint")} ?disabled=${this.isDrawing} @click=${() => void this.sheets((sheets) => save(zipOf(sheets.map((text, n) => ({ name: `sheet-${n + 1}.svg`, text }))), "sheets.zip"))}>${t("sheets")}</button>
       <button id="print-sheets" title=${toolText("printHint")} ?disabled=${this.isDrawing} @click=${() => void this.sheets(async (sheets) => (await import("./print_sheets")).printSheets(sheets))}>${toolText("print")}</button></div>`;
@@ -142,9 +142,9 @@ export class SectionTool extends Part {
     const levels = levelsOf(this.session.volume.info?.storeys ?? []);
     if (!levels.length) return nothing;
     if (levels.length > kMostChips)
-      return html`<select id="storeys" aria-label=${t("storeys")} @change=${(e: Event) => cutStorey(this.session.view, levels[(e.target as HTMLSelectElement).selectedIndex - 1]!.floor)}>
-        <option selected disabled>${t("storeys")}</option>${levels.map(({ name }) => html`<option>${name}</option>`)}</select>`;
-    return html`<div class="chips" role="group" aria-label=${t("storeys")}>${levels.map(
+      return html`<select id="storeys" aria-label=${toolText("storeys")} @change=${(e: Event) => cutStorey(this.session.view, levels[(e.target as HTMLSelectElement).selectedIndex - 1]!.floor)}>
+        <option selected disabled>${toolText("storeys")}</option>${levels.map(({ name }) => html`<option>${name}</option>`)}</select>`;
+    return html`<div class="chips" role="group" aria-label=${toolText("storeys")}>${levels.map(
       ({ name, floor }) =>
         html`<button aria-label=${t("storeyCut", { name })} @click=${() => cutStorey(this.session.view, floor)}>${name}</button>`,
     )}</div>`;
@@ -152,35 +152,35 @@ export class SectionTool extends Part {
 
   private plane(section: Section, n: number) {
     const [low, high] = rangeOf(section, this.session.volume.box);
-    return html`<div class="plane" role="group" aria-label=${t("planeNumber", { n: n + 1 })}>
+    return html`<div class="plane" role="group" aria-label=${toolText("planeNumber", { n: n + 1 })}>
       <div class="head">
-        <div class="segments" role="radiogroup" aria-label=${t("axis")}>${kAxes.map(
+        <div class="segments" role="radiogroup" aria-label=${toolText("axis")}>${kAxes.map(
           (axis) =>
-            html`<button role="radio" aria-checked=${section.axis === axis} title=${axisText(axis)} aria-label=${axisText(axis)} @click=${() => this.turnTo(n, axis)}>${axis === "free" ? t("axisFree") : axis}</button>`,
+            html`<button role="radio" aria-checked=${section.axis === axis} title=${axisText(axis)} aria-label=${axisText(axis)} @click=${() => this.turnTo(n, axis)}>${axis === "free" ? toolText("axisFree") : axis}</button>`,
         )}</div>
         <button aria-pressed=${section.flip} aria-label=${t("flip")} title=${t("flip")} @click=${() => this.change(n, { flip: !section.flip })}>${icon("flip", 16)}</button>
-        <button class="bare" aria-label=${t("removePlane", { n: n + 1 })} title=${t("removePlane", { n: n + 1 })} @click=${() => this.removePlane(n)}>${icon("bin", 16)}</button>
+        <button class="bare" aria-label=${toolText("removePlane", { n: n + 1 })} title=${toolText("removePlane", { n: n + 1 })} @click=${() => this.removePlane(n)}>${icon("bin", 16)}</button>
       </div>
       ${this.slider(
-        t("position"),
+        toolText("position"),
         section.at,
         low,
         high,
         0.01,
-        html`<span class="typed"><input type="number" class="at" step="0.01" aria-label=${t("positionTyped")} .value=${section.at.toFixed(2)}
+        html`<span class="typed"><input type="number" class="at" step="0.01" aria-label=${toolText("positionTyped")} .value=${section.at.toFixed(2)}
         @change=${(e: Event) => this.typed(n, (e.target as HTMLInputElement).valueAsNumber)} />m</span>`,
         (at) => this.change(n, { at }),
       )}
       ${this.inTheWorld(section, n)}
       ${
         section.axis === "free"
-          ? html`${this.slider(t("turn"), section.turn, -180, 180, 1, `${number(section.turn, 0)}°`, (turn) => this.change(n, { turn }))}
-            ${this.slider(t("tilt"), section.tilt, -90, 90, 1, `${number(section.tilt, 0)}°`, (tilt) => this.change(n, { tilt }))}`
+          ? html`${this.slider(toolText("turn"), section.turn, -180, 180, 1, `${number(section.turn, 0)}°`, (turn) => this.change(n, { turn }))}
+            ${this.slider(toolText("tilt"), section.tilt, -90, 90, 1, `${number(section.tilt, 0)}°`, (tilt) => this.change(n, { tilt }))}`
           : nothing
       }
       <div class="row small drawings" role="toolbar" aria-label=${t("drawing")}><span class="quiet grow">${t("drawing")}</span>${kFormats.map(
         (format) =>
-          html`<button class="small" aria-label=${t("exportAs", { format: format.toUpperCase() })} @click=${() => void this.export(n, format)}>${format.toUpperCase()}</button>`,
+          html`<button class="small" aria-label=${toolText("exportAs", { format: format.toUpperCase() })} @click=${() => void this.export(n, format)}>${format.toUpperCase()}</button>`,
       )}</div>
     </div>`;
   }
@@ -199,7 +199,9 @@ export class SectionTool extends Part {
     const offset = info?.origin[axis];
     const isAlong = info && axis >= 0 && (!info.axes || Math.abs(info.axes[axis]![axis]! - 1) < 1e-9);
     if (!isAlong || offset === undefined || Math.abs(offset) < 1e-6) return nothing;
-    const text = t(section.axis === "z" ? "heightInTheWorld" : "positionInTheWorld", { crs: info.crs ? crsText(info.crs) : t("theModel") });
+    const text = toolText(section.axis === "z" ? "heightInTheWorld" : "positionInTheWorld", {
+      crs: info.crs ? crsText(info.crs) : toolText("theModel"),
+    });
     return html`<div class="typed small"><span class="quiet grow">${text}</span><input type="number" class="world" step="0.01" aria-label=${text} .value=${(section.at + offset).toFixed(2)}
       @change=${(e: Event) => this.typed(n, (e.target as HTMLInputElement).valueAsNumber - offset)} />m</div>`;
   }
@@ -258,5 +260,5 @@ function crsText(crs: string): string {
 }
 
 function axisText(axis: SectionAxis): string {
-  return t(({ x: "axisX", y: "axisY", z: "axisZ", free: "axisFree" } as const)[axis]);
+  return toolText(({ x: "axisX", y: "axisY", z: "axisZ", free: "axisFree" } as const)[axis]);
 }
