@@ -28,11 +28,12 @@ std::string brotliOf(std::string_view text, BrotliCompress* compress) {
 
 }  // namespace
 
-bool addCompressedModules(Site& site) {
-    constexpr std::string_view kModule = ".wasm";
+bool addCompressedCopies(Site& site) {
     std::vector<std::string> paths;
-    for (const auto& [path, resource] : site.resources())
-        if (path.ends_with(kModule) && resource.gzip.size() > 0) paths.push_back(path);
+    for (const auto& [path, resource] : site.resources()) {
+        const bool isOfPage = path.ends_with(".wasm") || path.ends_with(".js") || path.ends_with(".css");
+        if (isOfPage && resource.gzip.size() > 0) paths.push_back(path);
+    }
     const Result<SharedLibrary> library = SharedLibrary::load("libbrotlienc.so.1");
     BrotliCompress* compress = nullptr;
     const bool hasBrotli = library && library->find("BrotliEncoderCompress", compress);

@@ -6,9 +6,9 @@
 
 namespace svt::serve {
 
-/// Adds copies of each WebAssembly module of the site beside it: `x.wasm.gz`, and `x.wasm.br` if the machine has the
-/// library libbrotlienc.so.1. A copy that saves little is left out. Cost: 1 s per 10 MB of modules and core.
+/// Adds copies of each module, script and style sheet of the site beside it: `x.wasm.gz`, and `x.wasm.br` if the machine
+/// has the library libbrotlienc.so.1. A copy that saves little is left out. Cost: 1 s per 10 MB of files and core.
 /// \return false if copies by Brotli are missing because the machine lacks the library
-[[nodiscard]] bool addCompressedModules(Site& site);
+[[nodiscard]] bool addCompressedCopies(Site& site);
 
 }  // namespace svt::serve

@@ -21,13 +21,15 @@ std::string moduleText() {
 using BrotliDecompress = int(std::size_t size, const std::uint8_t* bytes, std::size_t* unpackedSize,
                              std::uint8_t* unpacked);
 
-TEST(Precompressed, CopiesOfModulesUnpackToThem) {
+TEST(Precompressed, CopiesOfModulesAndScriptsUnpackToThem) {
     Site site;
     const std::string text = moduleText();
     site.add("/assets/svt-12345678.wasm", Bytes::of(text));
     site.add("/assets/index-12345678.js", Bytes::of(text));
+    site.add("/assets/index-12345678.css", Bytes::of(text));
+    site.add("/models/house.svt", Bytes::of(text));
     site.add("/assets/tiny-12345678.wasm", Bytes::of("tiny"));
-    const bool hasBrotli = addCompressedModules(site);
+    const bool hasBrotli = addCompressedCopies(site);
 
     const Resource* gzip = site.find("/assets/svt-12345678.wasm.gz");
     ASSERT_NE(gzip, nullptr);
@@ -36,8 +38,12 @@ TEST(Precompressed, CopiesOfModulesUnpackToThem) {
     ASSERT_TRUE(inflateInto(gzip->bytes.data, DeflateFormat::Gzip, unpacked));
     EXPECT_TRUE(std::string(reinterpret_cast<const char*>(unpacked.data()), unpacked.size()) == text);
 
-    for (const char* other : {"/assets/index-12345678.js.gz", "/assets/index-12345678.js.br",
-                              "/assets/tiny-12345678.wasm.gz", "/assets/tiny-12345678.wasm.br"})
+    for (const char* same : {"/assets/index-12345678.js.gz", "/assets/index-12345678.css.gz"}) {
+        ASSERT_NE(site.find(same), nullptr) << same;
+        EXPECT_TRUE(site.find(same)->bytes.text() == gzip->bytes.text()) << same;
+    }
+    for (const char* other : {"/models/house.svt.gz", "/models/house.svt.br", "/assets/tiny-12345678.wasm.gz",
+                              "/assets/tiny-12345678.wasm.br"})
         EXPECT_EQ(site.find(other), nullptr) << other;
 
     const Resource* brotli = site.find("/assets/svt-12345678.wasm.br");

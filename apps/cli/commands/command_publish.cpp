@@ -33,9 +33,9 @@ Result<int> runPublish(const PublishArguments& arguments) {
     SVT_TRY(site, serve::viewerSite(*viewer, *models));
     SVT_TRY(preview, pagePreview(*models, arguments.address, arguments.site.build.threads));
     SVT_DO(serve::addPageHead(*site, std::move(*preview)));
-    if (!serve::addCompressedModules(*site))
+    if (!serve::addCompressedCopies(*site))
         note(
-            "the page has no modules compressed by Brotli (.br), because libbrotlienc.so.1 is missing (Debian: "
+            "the page has no files compressed by Brotli (.br), because libbrotlienc.so.1 is missing (Debian: "
             "libbrotli1); .gz files are there");
     SVT_TRY(bytes, serve::writeSite(*site, arguments.output));
     const bool hasCity =

@@ -69,7 +69,7 @@ describe("flats and storeys act as their members", () => {
     const { totalVolume } = svtJson("query", at("tower.svt"), `id=${kFlat}`, "--json")[0];
     assert.equal(await panel().locator("#total-volume").innerText(), `${totalVolume.toFixed(3)} m³`);
     assert.doesNotMatch((await panel().locator("dl").allInnerTexts()).join(" "), /\b0\.0\d\d m³/);
-    // The surface is a sum, and the extent holds all parts.
+    // The surface is that of all parts together, whose common faces do not count; the extent holds them all.
     const { totalSurface, box } = await inPage("s.selection.properties");
     const parts = await inPage(
       "Promise.all(v.map((id) => s.volume.engine.properties(id)))",
@@ -78,7 +78,7 @@ describe("flats and storeys act as their members", () => {
     const solids = parts.filter((part) => part.surface > 0);
     assert.ok(solids.length > 10);
     const sum = solids.reduce((all, part) => all + part.surface, 0);
-    assert.ok(Math.abs(totalSurface - sum) < 1e-6 * sum, `${totalSurface}, its parts have ${sum}`);
+    assert.ok(totalSurface > 50 && totalSurface < sum, `${totalSurface}, its parts have ${sum}`);
     for (const axis of [0, 1, 2]) {
       assert.equal(box.low[axis], Math.min(...solids.map((part) => part.box.low[axis])));
       assert.equal(box.high[axis], Math.max(...solids.map((part) => part.box.high[axis])));

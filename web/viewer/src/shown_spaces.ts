@@ -3,9 +3,9 @@
 import type { Session } from "./session";
 import { hiddenSpaces, spacesOf } from "./state/spaces";
 
-/** Whether any rooms and other spaces are visible. */
+/** Whether any rooms and other spaces are visible; not while only some features are shown. */
 export function areSpacesShown({ volume, view }: Session): boolean {
-  return spacesOf(volume.index).some((i) => !view.hidden[i]);
+  return !view.state.show.length && spacesOf(volume.index).some((i) => !view.hidden[i]);
 }
 
 /** Whether anything but spaces is hidden. */
@@ -21,5 +21,9 @@ export function showSpaces({ volume, view }: Session, isShown: boolean): void {
 
 /** Shows everything; spaces only if some of them are visible already. */
 export function showAll(session: Session): void {
-  session.view.set({ show: [], hide: areSpacesShown(session) ? [] : hiddenSpaces(session.volume.index) });
+  const { view, volume } = session;
+  // Spaces that were hidden before only some features were shown are hidden again.
+  if (view.state.show.length) view.showOthers();
+  const hide = areSpacesShown(session) ? [] : hiddenSpaces(volume.index);
+  if (hide.join() !== view.state.hide.join()) view.set({ hide });
 }
