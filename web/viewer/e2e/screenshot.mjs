@@ -1,6 +1,6 @@
-// Makes docs/images/viewer.png, the generated house, cut open, in the page, and docs/images/viewer_comparison.png, two states of
-// it; or only the named ones. Needs `make viewer`.
-import { mkdtempSync, rmSync } from "node:fs";
+// Makes docs/images/viewer.png, the generated house, cut open, in the page, docs/images/viewer_comparison.png, two states of it,
+// and docs/images/viewer_field.png, temperatures in it; or only the named ones. Needs `make viewer`.
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { browse, repository, serve, svt, withModels } from "./harness.mjs";
@@ -46,7 +46,37 @@ async function compared() {
   return server;
 }
 
-const pictures = { viewer: cutOpen, viewer_comparison: compared };
+/** Values of sensors in the ground floor, which spread through open doors. */
+async function withField() {
+  const at = (file) => join(folder, file);
+  svt("sample", "house", "-o", at("warm.ifc"));
+  svt("build", at("warm.ifc"), "-o", at("plain.svt"), "--spacing", "0.05", "--vectors", "edges,meshes");
+  writeFileSync(at("places.csv"), "name,room\nliving,Living room\nkitchen,Kitchen\nhall,Hall\nstudy,Study\n");
+  writeFileSync(at("warm.csv"), "time,living,kitchen,hall,study\n0,21,23,18,20\n1800,21.5,26,19,20\n3600,22,24,20,20.5\n");
+  svt("field", "add", at("plain.svt"), at("warm.csv"), "--places", at("places.csv"), "--unit", "Cel", "--name", "sensors", "-q");
+  svt("simulate", "spread", at("plain.svt"), "sensors", "--open", "class=Door", "-o", at("warm.svt"), "-q");
+  const server = await serve(withModels([{ name: "warm", path: at("warm.svt"), title: "Sample house" }]));
+  await page.goto(server.url);
+  await finished();
+  await page.evaluate(async () => {
+    const { session } = document.querySelector("svt-app");
+    session.view.set({ sections: [{ axis: "z", at: 1.5, flip: false, turn: 0, tilt: 90 }] });
+    await session.view.goTo("", "iso");
+  });
+  await page.click("#tool-look");
+  await page.locator("#field").selectOption("spread");
+  await page.evaluate(() => {
+    const { session } = document.querySelector("svt-app");
+    session.view.set({ field: { name: "spread", time: 1800, isolines: 0.5 } });
+  });
+  await finished();
+  const { x, y, width, height } = await page.locator("svt-picture").boundingBox();
+  await page.mouse.click(x + width * 0.42, y + height * 0.55);
+  await page.locator("svt-field svg.series").scrollIntoViewIfNeeded();
+  return server;
+}
+
+const pictures = { viewer: cutOpen, viewer_comparison: compared, viewer_field: withField };
 const wanted = process.argv.slice(2);
 for (const [name, show] of Object.entries(pictures)) {
   if (wanted.length && !wanted.includes(name)) continue;
