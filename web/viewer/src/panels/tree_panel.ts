@@ -78,8 +78,6 @@ export class TreePanel extends Part {
     controls,
     css`
       :host { display: flex; flex-direction: column; height: 100%; min-height: 0; font-size: 13px; container-type: size; }
-      /* Above a tool and the selection, the list comes first. */
-      @container (max-height: 300px) { footer { display: none; } }
       header { padding: 10px 10px 8px; display: grid; gap: 8px; }
       .segments { margin-right: var(--sheet-close, 0); }
       form { display: grid; grid-template-columns: 1fr auto; gap: 6px; }
@@ -110,6 +108,8 @@ export class TreePanel extends Part {
       .eye.none { color: var(--text); }
       footer { padding: 8px 10px; border-top: 1px solid var(--line); display: grid; gap: 6px; }
       .note { display: flex; gap: 8px; align-items: center; justify-content: space-between; }
+      /* Above a tool and the selection, the list comes first. */
+      @container (max-height: 300px) { footer { display: none; } }
     `,
   ];
 
