@@ -6,6 +6,7 @@ import { isGroupOfParts, labelOf, type FeatureIndex } from "../state/feature_ind
 import { classText } from "../state/class_words";
 import { ofId, ofSubtree } from "../state/queries";
 import { number, t } from "../texts";
+import { toolText } from "../tool_texts";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
 import { comparison } from "./comparison";
@@ -63,7 +64,7 @@ export class PropertiesPanel extends Part {
     if (feature) return this.one(session.selection.properties);
     const n = session.view.now.selection.length;
     if (n > 1) return this.several(n);
-    return html`<h2>${t("nothingSelected")}</h2><p class="hint">${t("selectHint")}</p>${this.findings()}`;
+    return html`<h2>${t("nothingSelected")}</h2><p class="hint">${toolText("selectHint")}</p>${this.findings()}`;
   }
 
   private findings() {
@@ -78,7 +79,7 @@ export class PropertiesPanel extends Part {
     const { index } = this.session.volume;
     const above = pathTo(index, i);
     if (!above.length) return nothing;
-    return html`<nav class="path" aria-label=${t("pathOf")}><ol>${above.map((at) => {
+    return html`<nav class="path" aria-label=${toolText("pathOf")}><ol>${above.map((at) => {
       const feature = index.features[at]!;
       return html`<li><button class="bare" title=${feature.class} @click=${() => this.session.selection.select([feature.id])}>${icon(kindOf(feature), 14)}<span>${nameOf(index, feature)}</span></button></li>`;
     })}</ol></nav>`;
@@ -117,20 +118,20 @@ export class PropertiesPanel extends Part {
     const hasParts = p.totalSurface > 0 && p.totalSurface !== p.surface;
     return html`
       <dl>
-        ${isGroup && p.totalVolume !== null ? html`<dt>${t("totalVolume")}</dt><dd id="total-volume">${number(p.totalVolume, 3)} m³</dd>` : nothing}
-        ${isGroup && hasParts ? html`<dt>${t("totalSurface")}</dt><dd>${number(p.totalSurface, 2)} m²</dd>` : nothing}
+        ${isGroup && p.totalVolume !== null ? html`<dt>${toolText("totalVolume")}</dt><dd id="total-volume">${number(p.totalVolume, 3)} m³</dd>` : nothing}
+        ${isGroup && hasParts ? html`<dt>${toolText("totalSurface")}</dt><dd>${number(p.totalSurface, 2)} m²</dd>` : nothing}
         ${isGroup ? nothing : this.volume(p)}
         ${p.floorArea !== null ? html`<dt>${t("floorArea")}</dt><dd id="floor-area">${this.floorArea(p.floorArea)}</dd>` : nothing}
         ${p.surface > 0 && !isGroup ? html`<dt>${t("surface")}</dt><dd>${number(p.surface, 2)} m²</dd>` : nothing}
-        ${hasParts && !isGroup && p.totalVolume !== null ? html`<dt>${t("totalVolume")}</dt><dd>${number(p.totalVolume, 3)} m³</dd>` : nothing}
-        ${hasParts && !isGroup ? html`<dt>${t("totalSurface")}</dt><dd>${number(p.totalSurface, 2)} m²</dd>` : nothing}
+        ${hasParts && !isGroup && p.totalVolume !== null ? html`<dt>${toolText("totalVolume")}</dt><dd>${number(p.totalVolume, 3)} m³</dd>` : nothing}
+        ${hasParts && !isGroup ? html`<dt>${toolText("totalSurface")}</dt><dd>${number(p.totalSurface, 2)} m²</dd>` : nothing}
         ${size.every(Number.isFinite) && p.totalSurface > 0 ? html`<dt>${t("extent")}</dt><dd>${size.map((v) => number(v, 2)).join(" × ")} m</dd>` : nothing}
       </dl>
-      <h3>${t("attributes")}</h3>
+      <h3>${toolText("attributes")}</h3>
       <svt-attributes .session=${this.session} .of=${p}></svt-attributes>
       ${
         p.neighbours.length
-          ? html`<h3>${t("neighbours")}</h3><ul>${p.neighbours.map((n) =>
+          ? html`<h3>${toolText("neighbours")}</h3><ul>${p.neighbours.map((n) =>
               n.id === ""
                 ? html`<li class="outside"><span>${t("outside")}</span><span>${number(n.area, 2)} m²</span></li>`
                 : html`<li><button @click=${() => this.session.selection.select([n.id])}><span>${nameOf(index, n)} <span class="quiet">${classText(typeOf(index, n))}</span></span><span>${number(n.area, 2)} m²</span></button></li>`,
@@ -142,14 +143,14 @@ export class PropertiesPanel extends Part {
 
   /** The volume of a closed mesh. Below, or if the mesh is open, that of the voxels with its bound. */
   private volume({ modelVolume, voxelVolume, voxelBound }: FeatureProperties) {
-    const voxels = voxelVolume > 0 ? t("byVoxels", { value: `${number(voxelVolume, 3)} ± ${number(voxelBound, 3)} m³` }) : "";
+    const voxels = voxelVolume > 0 ? toolText("byVoxels", { value: `${number(voxelVolume, 3)} ± ${number(voxelBound, 3)} m³` }) : "";
     if (modelVolume === null) return voxels ? html`<dt>${t("key_volume")}</dt><dd id="volume">${voxels}</dd>` : nothing;
     return html`<dt>${t("key_volume")}</dt><dd id="volume">${number(modelVolume, 3)} m³${voxels ? html`<small>${voxels}</small>` : nothing}</dd>`;
   }
 
   private floorArea(area: number): string {
     const value = `${number(area, 2)} m²`;
-    return this.session.volume.info?.hasMeshes ? value : t("byVoxels", { value });
+    return this.session.volume.info?.hasMeshes ? value : toolText("byVoxels", { value });
   }
 
   private several(n: number) {
@@ -173,7 +174,7 @@ export class PropertiesPanel extends Part {
     const { now, isSelectionHidden: isHidden } = session.view;
     const focus = { ...now.focus, query: "" };
     return html`<div class="actions">
-      <button @click=${() => void session.view.goToSelected()}>${icon("fit", 16)}${t("frameIt")}</button>
+      <button @click=${() => void session.view.goToSelected()}>${icon("fit", 16)}${toolText("frameIt")}</button>
       <button aria-pressed=${now.effect === "highlight"} @click=${() => session.view.set({ effect: now.effect === "highlight" ? "none" : "highlight", focus })}>${icon("focus", 16)}${t("highlightIt")}</button>
       ${session.volume.isCity ? nothing : html`<button aria-pressed=${now.effect === "cutaway"} @click=${() => session.view.set({ effect: now.effect === "cutaway" ? "none" : "cutaway", focus })}>${icon("target", 16)}${t("cutawayTo")}</button>`}
       <button aria-pressed=${isHidden} @click=${() => session.view.hideSelected(!isHidden)}>${icon(isHidden ? "eye" : "eyeOff", 16)}${isHidden ? t("show") : t("hide")}</button>
@@ -185,12 +186,12 @@ export class PropertiesPanel extends Part {
     const { stretches } = this.session.selection.along!;
     return html`
       <div class="head"><h2>${t("alongTitle")}</h2>${this.close()}</div>
-      ${stretches.length ? nothing : html`<p class="hint">${t("alongNothing")}</p>`}
+      ${stretches.length ? nothing : html`<p class="hint">${toolText("alongNothing")}</p>`}
       <ul class="along">${stretches.map(
         (
           s,
         ) => html`<li><button @click=${() => this.session.selection.select([s.id])}><span>${labelOf(s)} <span class="quiet" title=${s.class}>${classText(s.class)}</span></span>
-          <span>${t("alongAt", { from: number(s.from, 2), to: number(s.to, 2) })}</span></button></li>`,
+          <span>${toolText("alongAt", { from: number(s.from, 2), to: number(s.to, 2) })}</span></button></li>`,
       )}</ul>
     `;
   }

@@ -85,7 +85,7 @@ export class BookmarkList extends Part {
 
   override render() {
     return html`
-      <h3>${t("bookmarks")}</h3>
+      <h3>${toolText("bookmarks")}</h3>
       ${this.views.length > 1 ? this.walk() : nothing}
       <ul>${this.views.map((view, n) => this.view(view, n))}</ul>
       <div class="row">
@@ -119,11 +119,11 @@ export class BookmarkList extends Part {
     const text = toolText("viewDetails", { name });
     return html`<li aria-current=${this.at === n}>
       <button class="go" aria-label=${name} title=${name} @click=${() => this.go(n)}>${picture ? html`<img src=${picture} alt="" />` : icon("view", 18)}</button>
-      <input type="text" autocomplete="off" spellcheck="false" aria-label=${t("bookmarkRename")} title=${date ? dateText(date) : nothing} .value=${name} @change=${(e: Event) => this.rename(n, e.target as HTMLInputElement)} />
+      <input type="text" autocomplete="off" spellcheck="false" aria-label=${toolText("bookmarkRename")} title=${date ? dateText(date) : nothing} .value=${name} @change=${(e: Event) => this.rename(n, e.target as HTMLInputElement)} />
       <button class="bare details-of" aria-label=${text} title=${text} aria-expanded=${isEdited} @click=${() => (this.edited = isEdited ? -1 : n)}>${icon("info", 16)}</button>
-      ${n > 0 ? this.button("up", t("bookmarkUp", { name }), () => this.store(movedUp(this.views, n))) : html`<span>${nothing}</span>`}
-      ${this.button("code", t("bookmarkExport", { name }), () => void this.exportScene(name, state))}
-      ${this.button("bin", t("bookmarkRemove", { name }), () => this.drop(n))}
+      ${n > 0 ? this.button("up", toolText("bookmarkUp", { name }), () => this.store(movedUp(this.views, n))) : html`<span>${nothing}</span>`}
+      ${this.button("code", toolText("bookmarkExport", { name }), () => void this.exportScene(name, state))}
+      ${this.button("bin", toolText("bookmarkRemove", { name }), () => this.drop(n))}
       ${isEdited ? this.details(view, n) : nothing}
     </li>`;
   }
@@ -179,7 +179,7 @@ export class BookmarkList extends Part {
     this.store([
       ...this.views,
       {
-        name: t("bookmarkName", { n: this.views.length + 1 }),
+        name: toolText("bookmarkName", { n: this.views.length + 1 }),
         state,
         date: new Date().toISOString().slice(0, 10),
         ...(picture ? { picture: dataUrl(picture) } : {}),
@@ -211,9 +211,9 @@ export class BookmarkList extends Part {
     const { session } = this;
     if (/\.bcf(zip)?$/i.test(file.name)) return this.addBcf(file);
     const views = bookmarksOfFile(await file.text());
-    if (!views?.length) return session.messages.tell(t("noViews", { name: file.name }));
+    if (!views?.length) return session.messages.tell(toolText("noViews", { name: file.name }));
     this.store([...this.views, ...views]);
-    session.messages.tell(t("bookmarksAdded", { n: views.length }));
+    session.messages.tell(toolText("bookmarksAdded", { n: views.length }));
   }
 
   private async addBcf(file: File): Promise<void> {
@@ -223,11 +223,13 @@ export class BookmarkList extends Part {
     try {
       const { viewsOfBcf } = await import("../state/bcf");
       const { views, missing } = await viewsOfBcf(await file.arrayBuffer(), model);
-      if (!views.length) return session.messages.tell(t("noViews", { name: file.name }));
+      if (!views.length) return session.messages.tell(toolText("noViews", { name: file.name }));
       this.store([...this.views, ...views]);
-      session.messages.tell([t("bookmarksAdded", { n: views.length }), ...(missing ? [t("bcfMissing", { n: missing })] : [])].join(". "));
+      session.messages.tell(
+        [toolText("bookmarksAdded", { n: views.length }), ...(missing ? [toolText("bcfMissing", { n: missing })] : [])].join(". "),
+      );
     } catch (error) {
-      session.messages.fail({ message: t("notBcf", { name: file.name, error: (error as Error).message ?? String(error) }) });
+      session.messages.fail({ message: toolText("notBcf", { name: file.name, error: (error as Error).message ?? String(error) }) });
     }
   }
 

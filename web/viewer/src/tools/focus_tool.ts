@@ -6,6 +6,7 @@ import { kSceneMembers } from "../generated/scene_members";
 import { focusQueries } from "../state/scene_of";
 import type { Effect, Focus } from "../state/view_state";
 import { help, number, t } from "../texts";
+import { toolText } from "../tool_texts";
 import { controls, Part } from "../ui/part";
 import { contextChoice } from "./context_choice";
 
@@ -42,16 +43,16 @@ export class FocusTool extends Part {
             html`<button role="radio" aria-checked=${wanted === "none" ? !isOn : effect === wanted} @click=${() => this.session.view.set({ effect: wanted as Effect })}>${t(kEffects[wanted])}</button>`,
         )}</div>
       <form @submit=${this.apply}>
-        <input id="focus-query" autocomplete="off" spellcheck="false" aria-label=${t("focusQuery")} placeholder=${t("focusQuery")} .value=${focus.query} />
+        <input id="focus-query" autocomplete="off" spellcheck="false" aria-label=${toolText("focusQuery")} placeholder=${toolText("focusQuery")} .value=${focus.query} />
         <button type="submit">${t("apply")}</button>
       </form>
       ${this.error ? html`<p class="error" role="alert">${this.error}</p>` : nothing}
-      ${isOn && !focusQueries(this.session.view.now).length ? html`<p class="small quiet">${t("focusEmpty")}</p>` : nothing}
+      ${isOn && !focusQueries(this.session.view.now).length ? html`<p class="small quiet">${toolText("focusEmpty")}</p>` : nothing}
       ${effect === "highlight" ? contextChoice(focus.context, (context) => this.change({ context })) : nothing}
       ${
         effect === "cutaway"
-          ? html`<div class="line"><span class="quiet">${t("margin")}</span>
-            <wa-slider size="s" label=${t("margin")} aria-label=${t("margin")} min="0" max="1" step="0.05" .value=${focus.margin} @input=${(e: Event) => this.change({ margin: Number((e.target as HTMLInputElement).value) })}></wa-slider>
+          ? html`<div class="line"><span class="quiet">${toolText("margin")}</span>
+            <wa-slider size="s" label=${toolText("margin")} aria-label=${toolText("margin")} min="0" max="1" step="0.05" .value=${focus.margin} @input=${(e: Event) => this.change({ margin: Number((e.target as HTMLInputElement).value) })}></wa-slider>
             <output>${number(focus.margin, 2)} m</output></div>`
           : nothing
       }

@@ -3,8 +3,8 @@
 import { html, nothing, css } from "lit";
 import type { Context } from "../engine";
 import type { Lens } from "../state/view_state";
-import { number, t } from "../texts";
-import { toolHint } from "../tool_texts";
+import { number } from "../texts";
+import { toolHint, toolText } from "../tool_texts";
 import { controls, Part } from "../ui/part";
 import { contextChoice } from "./context_choice";
 
@@ -23,13 +23,13 @@ export class LensTool extends Part {
     const isOn = effect === "lens";
     return html`
       <div class="row">
-        <label class="check"><input type="checkbox" id="lens-on" .checked=${isOn} @change=${(e: Event) => this.session.view.set({ effect: (e.target as HTMLInputElement).checked ? "lens" : "none", lens: { ...lens, pinned: false } })} />${t("lensOn")}</label>
-        <label class="check"><input type="checkbox" id="lens-pinned" .checked=${lens.pinned} ?disabled=${!isOn} @change=${(e: Event) => this.change({ pinned: (e.target as HTMLInputElement).checked })} />${t("lensPinned")}</label>
+        <label class="check"><input type="checkbox" id="lens-on" .checked=${isOn} @change=${(e: Event) => this.session.view.set({ effect: (e.target as HTMLInputElement).checked ? "lens" : "none", lens: { ...lens, pinned: false } })} />${toolText("lensOn")}</label>
+        <label class="check"><input type="checkbox" id="lens-pinned" .checked=${lens.pinned} ?disabled=${!isOn} @change=${(e: Event) => this.change({ pinned: (e.target as HTMLInputElement).checked })} />${toolText("lensPinned")}</label>
       </div>
-      ${this.slider(t("lensSize"), lens.radius, 0.04, 0.9, (radius) => this.change({ radius }))}
+      ${this.slider(toolText("lensSize"), lens.radius, 0.04, 0.9, (radius) => this.change({ radius }))}
       ${
         lens.pinned
-          ? html`${this.slider(t("lensX"), lens.x, 0, 1, (x) => this.change({ x }))}${this.slider(t("lensY"), lens.y, 0, 1, (y) => this.change({ y }))}`
+          ? html`${this.slider(toolText("lensX"), lens.x, 0, 1, (x) => this.change({ x }))}${this.slider(toolText("lensY"), lens.y, 0, 1, (y) => this.change({ y }))}`
           : nothing
       }
       ${contextChoice(lens.context, (context: Context) => this.change({ context }))}
