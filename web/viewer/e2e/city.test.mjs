@@ -58,6 +58,17 @@ function serveCity(answer = (_path, _first, _last, _part, _all) => null) {
 const { inPage } = visit;
 const complete = () => visit.until("s.model.city?.isComplete && s.picture.quality === 'fine'");
 
+/** The camera in the middle of the city, near the ground, with all of its tiles. */
+async function goToStreet() {
+  const size = await inPage("s.volume.info.size");
+  await inPage("s.view.set({ camera: { ...s.view.state.camera, eye: v.eye, target: v.target } })", {
+    eye: [size[0] / 2, size[1] / 2, 60],
+    target: [size[0] / 2 + 60, size[1] / 2 + 80, 5],
+  });
+  await page.waitForFunction(() => !document.querySelector("svt-app").session.model.city.isComplete);
+  await complete();
+}
+
 async function open(url) {
   await visit.begin();
   page = visit.page;
@@ -108,13 +119,7 @@ describe("A city on the page", () => {
     assert.equal(seen.buildings, 1500);
     assert.equal(seen.look.pixels, 1);
     // Near the ground there are buildings with their attributes, and the address leads there again.
-    const size = await inPage("s.volume.info.size");
-    await inPage("s.view.set({ camera: { ...s.view.state.camera, eye: v.eye, target: v.target } })", {
-      eye: [size[0] / 2, size[1] / 2, 60],
-      target: [size[0] / 2 + 60, size[1] / 2 + 80, 5],
-    });
-    await page.waitForFunction(() => !document.querySelector("svt-app").session.model.city.isComplete);
-    await complete();
+    await goToStreet();
     assert.equal(
       await inPage("s.model.city.look.finest"),
       0,
@@ -215,13 +220,7 @@ describe("A city on the page", () => {
     const asked = await open(server.url);
     await complete();
     const camera = await inPage("s.view.state.camera");
-    const size = await inPage("s.volume.info.size");
-    await inPage("s.view.set({ camera: { ...s.view.state.camera, eye: v.eye, target: v.target } })", {
-      eye: [size[0] / 2, size[1] / 2, 60],
-      target: [size[0] / 2 + 60, size[1] / 2 + 80, 5],
-    });
-    await page.waitForFunction(() => !document.querySelector("svt-app").session.model.city.isComplete);
-    await complete();
+    await goToStreet();
     const before = asked.length;
     await inPage("s.view.set({ camera: v })", camera);
     await page.waitForFunction(() => !document.querySelector("svt-app").session.model.city.isComplete);

@@ -101,6 +101,12 @@ describe("a field", () => {
     await eventually(async () => assert.match(await value(), /: 25 °C$/));
     await visit.page.keyboard.press("ArrowRight");
     await eventually(async () => assert.match(await value(), /no value here$/));
+    // A link may name a time between two of the field; pictures are linear there.
+    await inPage("s.view.set({ field: { name: 'warm', time: 900 } })");
+    await eventually(async () => assert.match(await value(), /: 24 °C$/));
+    assert.equal(await field().locator("#field-time-text").innerText(), "0:15:00");
+    await inPage("s.view.set({ field: { name: 'warm', time: 2700 } })");
+    await eventually(async () => assert.match(await value(), /no value here$/));
   });
 
   it("has its values by component, as the command states them", async () => {

@@ -9,7 +9,7 @@ import { rangeOfControl } from "../state/member_controls";
 import { number } from "../texts";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
-import { seriesPath, timeIndex, timeText, unitText, valueText } from "./field_values";
+import { seriesPath, timeIndex, timeText, unitText, valueAt, valueText } from "./field_values";
 import { probeOf } from "./probe";
 import { fieldText } from "./texts";
 
@@ -54,6 +54,7 @@ export class FieldChoice extends Part {
       th, td { text-align: right; padding: 2px 4px; font-weight: 400; }
       th:first-child, td:first-child { text-align: left; }
       td:first-child button { width: 100%; justify-content: flex-start; text-align: left; overflow-wrap: anywhere; white-space: normal; }
+      caption { text-align: left; padding: 2px 4px; color: var(--quiet); }
       thead th { color: var(--quiet); }
       #field-value { margin: 6px 0 4px; overflow-wrap: anywhere; }
     `,
@@ -106,7 +107,8 @@ export class FieldChoice extends Part {
     this.rows = { field, time, of: [] };
     try {
       const of = await this.session.volume.engine!.fieldRows(field, time);
-      if (this.rows.field === field && this.rows.time === time)
+      // Another model, field or time may be shown meanwhile.
+      if (this.rows?.field === field && this.rows.time === time)
         this.rows = { field, time, of: [...of].sort((a, b) => (b.mean ?? -Infinity) - (a.mean ?? -Infinity)) };
     } catch (error) {
       this.areRowsOpen = false;
@@ -150,7 +152,7 @@ export class FieldChoice extends Part {
         @click=${() => (this.isPlaying ? this.stop() : this.play())}>${icon(this.isPlaying ? "pause" : "play", 16)}</button>
       <wa-slider size="s" id="field-time" label=${fieldText("fieldTime")} aria-label=${fieldText("fieldTime")} min="0" max=${shown.times.length - 1} step="1" .value=${at}
         @input=${(e: Event) => this.goTo(Number((e.target as HTMLInputElement).value))}></wa-slider>
-      <output id="field-time-text">${timeText(shown, shown.times[at]!)}</output></div>`;
+      <output id="field-time-text">${timeText(shown, field.time ?? shown.times[at]!)}</output></div>`;
   }
 
   /** An end of the range; empty: that of all values. */
@@ -172,12 +174,12 @@ export class FieldChoice extends Part {
   private probe(field: SceneField, shown: FieldInfo) {
     const series = probeOf(this.session).of(field.name);
     if (!series) return html`<p class="small quiet" id="field-value">${fieldText("fieldHint")}</p>`;
-    const at = timeIndex(shown.times, field.time);
-    const value = series.values[at] ?? null;
+    const seconds = field.time ?? shown.times[0]!;
+    const value = valueAt(shown.times, series.values, seconds);
     const name = labelOf(series);
     const path = seriesPath(shown.times, series.values);
     const known = series.values.filter((one): one is number => one !== null);
-    const x = shown.times.length > 1 ? (100 * (shown.times[at]! - shown.times[0]!)) / (shown.times.at(-1)! - shown.times[0]!) : 0;
+    const x = shown.times.length > 1 ? (100 * (seconds - shown.times[0]!)) / (shown.times.at(-1)! - shown.times[0]!) : 0;
     return html`<p id="field-value" role="status">${value === null ? fieldText("fieldNoValue", { name }) : fieldText("fieldProbe", { name, value: valueText(value, shown.unit) })}</p>
       ${
         path
@@ -191,7 +193,8 @@ export class FieldChoice extends Part {
   private table(shown: FieldInfo) {
     const rows = this.rows?.of ?? [];
     const cell = (value: number | null) => (value === null ? fieldText("fieldUnknown") : valueText(value, ""));
-    return html`<table><thead><tr><th></th><th>${fieldText("fieldMean")} ${unitText(shown.unit)}</th><th>${fieldText("fieldRange")}</th></tr></thead><tbody>
+    const time = shown.times.length > 1 && this.rows ? html`<caption>${timeText(shown, shown.times[this.rows.time]!)}</caption>` : nothing;
+    return html`<table>${time}<thead><tr><th></th><th>${fieldText("fieldMean")} ${unitText(shown.unit)}</th><th>${fieldText("fieldRange")}</th></tr></thead><tbody>
       ${rows.slice(0, kMostRows).map(
         (
           row,

@@ -1,6 +1,6 @@
 import { afterEach, describe, expect, it } from "vitest";
 import { setLanguage } from "../texts";
-import { seriesPath, timeIndex, timeText, unitText, valueText } from "./field_values";
+import { seriesPath, timeIndex, timeText, unitText, valueAt, valueText } from "./field_values";
 
 describe("values and times of fields", () => {
   afterEach(() => setLanguage("en"));
@@ -24,6 +24,13 @@ describe("values and times of fields", () => {
   it("find the last time that is not later", () => {
     expect(timeIndex([0, 10, 20], undefined)).toBe(0);
     expect([-5, 0, 9.9, 10, 25].map((seconds) => timeIndex([0, 10, 20], seconds))).toEqual([0, 0, 0, 1, 2]);
+  });
+
+  it("are linear between two times, and unknown beside an unknown one", () => {
+    const times = [0, 10, 20];
+    expect([-5, 0, 2.5, 10, 15, 20, 30].map((seconds) => valueAt(times, [1, 3, null], seconds))).toEqual([1, 1, 1.5, 3, null, null, null]);
+    expect(valueAt(times, [null, 3, 4], 5)).toBeNull();
+    expect(valueAt([7], [2], 7)).toBe(2);
   });
 
   it("are a line that missing values interrupt", () => {

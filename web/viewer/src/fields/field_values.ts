@@ -56,6 +56,16 @@ export function timeIndex(times: readonly number[], seconds: number | undefined)
   return at;
 }
 
+/** The value at a time, linear between two times, as in pictures; null: one of both is missing. Outside of the times: that of the nearest. */
+export function valueAt(times: readonly number[], values: readonly (number | null)[], seconds: number): number | null {
+  const at = timeIndex(times, seconds);
+  const value = values[at] ?? null,
+    next = values[at + 1] ?? null;
+  const share = at + 1 < times.length ? (seconds - times[at]!) / (times[at + 1]! - times[at]!) : 0;
+  if (share <= 1e-9) return value;
+  return value === null || next === null ? null : value + share * (next - value);
+}
+
 /** The points of a line through a series, in a box of 100 by 30 with y downwards; null values interrupt it. */
 export function seriesPath(times: readonly number[], values: readonly (number | null)[]): string {
   const known = values.filter((value): value is number => value !== null);

@@ -8,24 +8,27 @@ export class FieldProbe extends Observable {
   /** null: no place, or nothing there. */
   series: FieldSeries | null = null;
   private field = "";
+  private info: unknown = null;
 
   constructor(private readonly session: Session) {
     super();
   }
 
-  /** The series of the present field; null: of none. */
+  /** The series of a field of the open model; null: none. */
   of(field: string): FieldSeries | null {
-    return this.field === field ? this.series : null;
+    return this.field === field && this.info === this.session.volume.info ? this.series : null;
   }
 
   /** @param x, y  fractions of the picture */
   async take(x: number, y: number): Promise<void> {
     const { view, volume, messages } = this.session;
     const { field } = view.state;
+    const { info } = volume;
     if (!field || !volume.engine) return;
     try {
       const series = await volume.engine.fieldAt(field.name, x, y);
       this.field = field.name;
+      this.info = info;
       this.series = series;
     } catch (error) {
       messages.fail(error);

@@ -29,7 +29,7 @@ function bareName(name: string): string {
     .replace(/(Standard|Elemented)Case$/, "");
 }
 
-/** A class or a type in the language of the page; its name in English, and where there is no word. */
+/** The word for a class or a type in the language of the page. English pages show the name itself, and so do others without a word. */
 export function classText(name: string): string {
   const other = otherTexts()?.classes;
   if (other) return other[name] ?? other[bareName(name)] ?? name;
